@@ -129,7 +129,7 @@ fn measure(coherent: bool, count: usize, level: Level) {
                 if coherent {
                     let corners = &corners[band];
                     let tiles = CameraTiles { camera, size: (side, side), corners };
-                    search.tile_hits(tracing, &mut scratch, tiles, rays, hits);
+                    search.tile_hits(tracing, (&mut scratch, &threads), tiles, rays, hits);
                 } else {
                     search.closest_hits(tracing, &mut scratch, rays, hits);
                 }

@@ -234,8 +234,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, E
     let words: Vec<_> = arguments.into_iter().collect();
     let program = Arguments::command();
     let matches = program.clone().try_get_matches_from(&words).and_then(|matches| {
-        check_order(&matches)?;
-        check_frames(&matches)?;
+        check_conflicts(&matches)?;
         Arguments::from_arg_matches(&matches)
     });
     match matches {
@@ -254,26 +253,21 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, E
     }
 }
 
-/// Refuses `--structure` beside `--order object`, which searches no structure.
-fn check_order(matches: &ArgMatches) -> Result<(), clap::Error> {
-    let matches = matches.subcommand_matches("tradeoff").unwrap_or(matches);
-    let is_object = matches!(matches.try_get_one("order"), Ok(Some(Order::Object)));
-    if is_object && matches.value_source("structure") == Some(ValueSource::CommandLine) {
-        let message = "the argument '--order object' cannot be used with '--structure <HOW>'";
-        return Err(Arguments::command().error(ErrorKind::ArgumentConflict, message));
-    }
-    Ok(())
-}
-
-/// Refuses `--frames` beside `tradeoff`, which measures one frame.
-fn check_frames(matches: &ArgMatches) -> Result<(), clap::Error> {
+/// Refuses `--structure` beside `--order object`, which searches no structure, and `--frames` beside `tradeoff`, which
+/// measures one frame.
+fn check_conflicts(matches: &ArgMatches) -> Result<(), clap::Error> {
     let tradeoff = matches.subcommand_matches("tradeoff");
-    let source = tradeoff.and_then(|tradeoff| tradeoff.value_source("frames"));
-    if source == Some(ValueSource::CommandLine) {
-        let message = "the argument '--frames <A..B>' cannot be used with 'tradeoff', which measures one frame: --frame <N>";
-        return Err(Arguments::command().error(ErrorKind::ArgumentConflict, message));
-    }
-    Ok(())
+    let matches = tradeoff.unwrap_or(matches);
+    let is_said = |option| matches.value_source(option) == Some(ValueSource::CommandLine);
+    let is_object = matches!(matches.try_get_one("order"), Ok(Some(Order::Object)));
+    let message = if is_object && is_said("structure") {
+        "the argument '--order object' cannot be used with '--structure <HOW>'"
+    } else if tradeoff.is_some() && is_said("frames") {
+        "the argument '--frames <A..B>' cannot be used with 'tradeoff', which measures one frame: --frame <N>"
+    } else {
+        return Ok(());
+    };
+    Err(Arguments::command().error(ErrorKind::ArgumentConflict, message))
 }
 
 /// clap's message without its prefix and usage, its lines joined, and what it takes to be meant.

@@ -87,12 +87,13 @@ impl CellGrid {
         self.cells.get(start..start + usize::from(self.columns)).unwrap_or(&[])
     }
 
-    /// Marks one cell, and no other: a terminal shows it with ink and paper exchanged, whatever its colours.
-    pub fn mark(&mut self, column: u16, row: u16) {
-        self.marked = Some((column, row));
+    /// The characters of each row.
+    #[cfg(test)]
+    pub(crate) fn lines(&self) -> Vec<String> {
+        (0..self.rows).map(|row| self.row(row).iter().map(|cell| cell.glyph).collect()).collect()
     }
 
-    /// Moves the mark to a cell, or removes it.
+    /// Marks one cell or none, and no other: a terminal shows it with ink and paper exchanged, whatever its colours.
     pub fn set_mark(&mut self, marked: Option<(u16, u16)>) {
         self.marked = marked;
     }

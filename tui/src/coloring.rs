@@ -107,8 +107,8 @@ impl FromStr for ColorBy {
     }
 }
 
-/// Colours, one a sphere, and what they mean.
-#[derive(Clone, Debug, PartialEq)]
+/// Colours, one a sphere, and what they mean; the scene's own by default.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coloring {
     /// `None` if they are the scene's own.
     pub colors: Option<Vec<Srgb>>,
@@ -146,8 +146,8 @@ pub fn coloring(
             None => format!("no {} in this scene to colour by; it has {has}", by.name()),
         }
     };
-    match by {
-        ColorBy::Scene => Ok(Coloring { colors: None, legend: None }),
+    let (colors, names): (Vec<_>, Vec<_>) = match by {
+        ColorBy::Scene => return Ok(Coloring::default()),
         ColorBy::Element => {
             let elements = attributes.elements.as_ref().ok_or_else(missing)?;
             let color =
@@ -159,12 +159,8 @@ pub fn coloring(
             present.sort_by_key(|&number: &u8| std::cmp::Reverse(counts[usize::from(number)]));
             let name =
                 |number: &u8| of_number((*number).into()).map_or("?", |element| element.symbol);
-            let entries = present.iter().map(|number| (color(number), name(number).to_owned()));
-            let legend = Legend::new(by.name(), Entries::Names(entries.collect()));
-            Ok(Coloring {
-                colors: Some(elements.iter().map(color).collect()),
-                legend: Some(legend),
-            })
+            let names = present.iter().map(|number| (color(number), name(number).to_owned()));
+            (elements.iter().map(color).collect(), names.collect())
         }
         ColorBy::Names(naming) => {
             // Where the file itself has a column of numbers with that name, that is meant.
@@ -183,18 +179,16 @@ pub fn coloring(
             order.sort_by_key(|&index| places[index].unwrap_or(usize::MAX));
             let shown =
                 |name: &str| if name.is_empty() { "none".to_owned() } else { name.to_owned() };
-            let entries = order.iter().map(|&index| (table[index], shown(&names.table()[index])));
-            let legend = Legend::new(by.name(), Entries::Names(entries.collect()));
-            Ok(Coloring {
-                colors: Some(names.indices().iter().map(color).collect()),
-                legend: Some(legend),
-            })
+            let shown = order.iter().map(|&index| (table[index], shown(&names.table()[index])));
+            (names.indices().iter().map(color).collect(), shown.collect())
         }
         ColorBy::Column(name) => {
             let column = column_of_numbers(attributes, name).ok_or_else(missing)?;
-            Ok(by_numbers(column, range, seen))
+            return Ok(by_numbers(column, range, seen));
         }
-    }
+    };
+    let legend = Legend::new(by.name(), Entries::Names(names));
+    Ok(Coloring { colors: Some(colors), legend: Some(legend) })
 }
 
 /// Whether a column can be asked for by its name: that is not empty, and means no other choice, except names of a kind.

@@ -23,7 +23,7 @@ use crate::threads::Threads;
 use crate::view::View;
 use plan::Plan;
 use sample_grid::{SampleGrid, Traced};
-use spherule_kernel::{Camera, Coherence, Level};
+use spherule_kernel::{Camera, Coherence, Level, Tier};
 use std::ops::Range;
 use strip::Strip;
 
@@ -135,7 +135,7 @@ impl<'a> Renderer<'a> {
         spending: Spending,
     ) -> Drawn {
         let mut cells = CellGrid::new(columns, rows);
-        let traced = self.traced(scene, search, style);
+        let traced = self.traced(scene, search, style.accuracy);
         let plan = Plan::new(traced, view, style, (columns, rows), spending);
         let effort = self.in_strips(&plan, &mut cells);
         Drawn { cells, effort }
@@ -154,7 +154,7 @@ impl<'a> Renderer<'a> {
         part: Range<u16>,
         spending: Spending,
     ) -> Drawn {
-        let traced = self.traced(scene, search, style);
+        let traced = self.traced(scene, search, style.accuracy);
         let plan = Plan::new(traced, view, style, (columns, rows), spending);
         let [of_edges, _] = plan.edges_reach();
         let beside = u16::try_from(of_edges.saturating_add(BESIDE)).unwrap_or(u16::MAX);
@@ -195,7 +195,7 @@ impl<'a> Renderer<'a> {
         (columns, rows): (u16, u16),
         mut take: impl FnMut(&CellGrid) -> Result<(), E>,
     ) -> Result<(), E> {
-        let traced = self.traced(scene, search, style);
+        let traced = self.traced(scene, search, style.accuracy);
         let plan = Plan::new(traced, view, style, (columns, rows), Spending::ByNeed);
         let height = self.strip_rows(columns, plan.few.samples.count());
         for first in (0..rows).step_by(height.into()) {
@@ -213,17 +213,11 @@ impl<'a> Renderer<'a> {
         u16::try_from(rows).unwrap_or(u16::MAX).max(1)
     }
 
-    fn traced<'b>(
-        &self,
-        scene: &'b Scene,
-        search: &'b PictureSearch<'b>,
-        style: &Style,
-    ) -> Traced<'b>
+    fn traced<'b>(&self, scene: &'b Scene, search: &'b PictureSearch<'b>, tier: Tier) -> Traced<'b>
     where
         'a: 'b,
     {
-        let tracing =
-            Tracing { tier: style.accuracy, level: self.level, coherence: search.coherence };
+        let tracing = Tracing { tier, level: self.level, coherence: search.coherence };
         Traced { tracing, scene, search, threads: self.threads }
     }
 }

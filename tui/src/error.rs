@@ -7,6 +7,7 @@ pub mod stdout;
 
 use crate::harmless;
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Why the program ends.
@@ -28,6 +29,14 @@ impl Error {
             io::ErrorKind::BrokenPipe => Self::ReaderGone,
             _ => Self::Running(format!("{name}: {}", cause(error))),
         }
+    }
+
+    /// The same of an output to the file `path`; `-` is standard output.
+    #[must_use]
+    pub fn of_file(path: &Path, error: &io::Error) -> Self {
+        let is_stdout = path == Path::new("-");
+        let name = if is_stdout { "standard output".into() } else { path.to_string_lossy() };
+        Self::of_output(&name, error)
     }
 
     /// Writes the error to stderr, in one line whatever names it holds, and returns the exit code.

@@ -8,11 +8,12 @@ mod asked_again;
 mod report;
 
 use crate::error::{Error, write_stdout};
+use crate::npy::ray;
 use arrays::{Answers, Array, DTYPE_F4, DTYPE_U1, paired_rows};
 use asked_again::smaller;
 use clap::Args;
 use report::Report;
-use spherule_kernel::{Ray, Sphere, Vec3};
+use spherule_kernel::{Ray, Sphere};
 use spherule_referee::failure::Failure;
 use spherule_referee::families::FAMILIES;
 use spherule_referee::judge::Judge;
@@ -177,8 +178,4 @@ fn in_a_line(path: &Path, text: &str, error: &toml::de::Error) -> Error {
     let line = text[..place].matches('\n').count() + 1;
     let what = error.message().lines().next().unwrap_or_default();
     Error::Input(format!("{}:{line}: {what}", path.display()))
-}
-
-fn ray([x, y, z, dx, dy, dz, t_min, t_max]: [f32; 8]) -> Ray {
-    Ray { origin: Vec3::new(x, y, z), direction: Vec3::new(dx, dy, dz), t_min, t_max }
 }

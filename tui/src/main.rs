@@ -15,36 +15,26 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), Error> {
-    match arguments::parse(std::env::args_os())? {
-        Request::Print(text) => write_stdout(text.as_bytes()),
-        Request::Run(arguments) => match &arguments.command {
-            None => {
-                machine::check_floats(arguments.picture.accuracy)?;
-                show::show(&arguments.picture)
-            }
-            Some(Command::Trace(arguments)) => {
-                machine::check_floats(arguments.accuracy)?;
-                trace::trace(arguments)
-            }
-            Some(Command::Tradeoff(arguments)) => {
-                // An answer is wrong if it differs from that of `exact`.
-                machine::check_floats(Tier::Exact)?;
-                tradeoff::tradeoff(arguments)
-            }
-            Some(Command::Lecture(arguments)) => {
-                machine::check_floats(Tier::Exact)?;
-                lecture::lecture(arguments)
-            }
-            Some(Command::Cases(arguments)) => {
-                machine::check_floats(Tier::Exact)?;
-                cases::cases(arguments)
-            }
-            Some(Command::Judge(arguments)) => {
-                machine::check_floats(Tier::Exact)?;
-                judge::judge(arguments)
-            }
-            Some(Command::Generate { folder }) => manual::generate(folder),
-            Some(Command::Scenes) => write_stdout(show::scenes().as_bytes()),
-        },
+    let arguments = match arguments::parse(std::env::args_os())? {
+        Request::Print(text) => return write_stdout(text.as_bytes()),
+        Request::Run(arguments) => arguments,
+    };
+    let tier = match &arguments.command {
+        None => Some(arguments.picture.accuracy),
+        Some(Command::Trace(arguments)) => Some(arguments.accuracy),
+        Some(Command::Generate { .. } | Command::Scenes) => None,
+        // An answer is wrong if it differs from that of `exact`.
+        Some(_) => Some(Tier::Exact),
+    };
+    tier.map_or(Ok(()), machine::check_floats)?;
+    match &arguments.command {
+        None => show::show(&arguments.picture),
+        Some(Command::Trace(arguments)) => trace::trace(arguments),
+        Some(Command::Tradeoff(arguments)) => tradeoff::tradeoff(arguments),
+        Some(Command::Lecture(arguments)) => lecture::lecture(arguments),
+        Some(Command::Cases(arguments)) => cases::cases(arguments),
+        Some(Command::Judge(arguments)) => judge::judge(arguments),
+        Some(Command::Generate { folder }) => manual::generate(folder),
+        Some(Command::Scenes) => write_stdout(show::scenes().as_bytes()),
     }
 }

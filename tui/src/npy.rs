@@ -4,6 +4,7 @@
 use crate::error::{Error, cause};
 use crate::whole_file::WholeFile;
 use npyz::{DType, NpyHeader, Order, Serialize, WriteOptions, WriterBuilder};
+use spherule_kernel::{Ray, Vec3};
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, IntoInnerError, Read};
 use std::path::Path;
@@ -80,10 +81,9 @@ impl Array {
         let total = self.rows.checked_mul(self.width * self.size as u64);
         let total =
             total.ok_or_else(|| format!("{} rows are more than any file has", self.rows))?;
-        let fewer = || {
-            let shape = format!("({}, {})", self.rows, self.width);
-            format!("fewer bytes than the {total} of its shape {shape}")
-        };
+        let (rows, columns) = (self.rows, self.width);
+        let claimed = || format!("bytes than the {total} of its shape ({rows}, {columns})");
+        let fewer = || format!("fewer {}", claimed());
         let mut numbers = Vec::new();
         if self.is_fortran {
             let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -114,10 +114,7 @@ impl Array {
         }
         match reader.take(1).read_to_end(&mut Vec::new()) {
             Ok(0) => Ok(()),
-            Ok(_) => {
-                let shape = format!("({}, {})", self.rows, self.width);
-                Err(format!("more bytes than the {total} of its shape {shape}"))
-            }
+            Ok(_) => Err(format!("more {}", claimed())),
             Err(error) => Err(cause(&error)),
         }
     }
@@ -186,6 +183,12 @@ pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<[f32; N]>, Error> {
     Ok(values)
 }
 
+/// The ray of a row: origin, direction, `t_min`, `t_max`.
+#[must_use]
+pub fn ray([x, y, z, dx, dy, dz, t_min, t_max]: [f32; 8]) -> Ray {
+    Ray { origin: Vec3::new(x, y, z), direction: Vec3::new(dx, dy, dz), t_min, t_max }
+}
+
 /// A one-dimensional array that is whole on the disk, and has not got its name yet.
 #[derive(Debug)]
 pub struct Column {
@@ -245,9 +248,9 @@ pub(crate) fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
     if !bytes.starts_with(b"\x93NUMPY") {
         return Err("no .npy file".to_owned());
     }
-    let (digits, length) = match bytes[6] {
-        1 => (2, 2),
-        2 | 3 => (4, 4),
+    let length = match bytes[6] {
+        1 => 2,
+        2 | 3 => 4,
         version => return Err(format!("a .npy file of the unknown version {version}")),
     };
     take(length, &mut bytes)?;
@@ -256,7 +259,7 @@ pub(crate) fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
         return Err(format!("a header of {size} bytes is none of a plain array of numbers"));
     }
     take(size, &mut bytes)?;
-    let text = &bytes[8 + digits..];
+    let text = &bytes[8 + length..];
     if text.iter().filter(|byte| byte.is_ascii_digit()).count() > MOST_DIGITS {
         return Err("a shape larger than any file".to_owned());
     }

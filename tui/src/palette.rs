@@ -165,14 +165,24 @@ pub fn entries(depth: ColorDepth, theme: &Theme) -> Vec<Entry> {
 /// colours.
 #[must_use]
 pub fn shown(srgb: Srgb, depth: ColorDepth, theme: &Theme) -> Color {
+    shown_by(srgb, depth, theme, |_| true)
+}
+
+/// The same by those entries alone that `may` be taken.
+pub(crate) fn shown_by(
+    srgb: Srgb,
+    depth: ColorDepth,
+    theme: &Theme,
+    may: fn(&Entry) -> bool,
+) -> Color {
     match depth {
         ColorDepth::Never => Color::Default,
         ColorDepth::Truecolor => Color::Rgb(srgb.0),
         ColorDepth::Ansi16 | ColorDepth::Ansi256 => {
             let look = oklab(srgb.to_linear());
             let away = |entry: &Entry| entry.look.distance_squared(look);
-            let nearest =
-                entries(depth, theme).into_iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+            let entries = entries(depth, theme).into_iter().filter(may);
+            let nearest = entries.min_by(|a, b| away(a).total_cmp(&away(b)));
             nearest.map_or(Color::Default, |entry| entry.color)
         }
     }

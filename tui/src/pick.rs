@@ -9,8 +9,8 @@ use crate::style::Style;
 use crate::view::View;
 use glam::DVec3;
 use spherule_kernel::{
-    ClosestHit, Hit, HitPacket, Level, Ray, RayPacket, Sphere, Spheres, Tier, discriminant, roots,
-    stages,
+    ClosestHit, Hit, HitPacket, Level, Ray, RayPacket, Sphere, SphereList, Tier, discriminant,
+    roots, stages,
 };
 use std::borrow::Cow;
 
@@ -70,10 +70,8 @@ impl Stage {
 
     /// The stage that decides one ray and one sphere.
     fn of(ray: &Ray, sphere: &Sphere) -> Self {
-        let [x, y, z] = sphere.center.to_array().map(|coordinate| [coordinate]);
-        let radius = [sphere.radius];
-        let Ok(alone) = Spheres::new(&x, &y, &z, &radius) else { return Self::Filter };
-        let counted = stages(ClosestHit, &[RayPacket::new(&[*ray])], alone);
+        let alone = SphereList::from([*sphere]);
+        let counted = stages(ClosestHit, &[RayPacket::new(&[*ray])], alone.spheres());
         match (counted.double, counted.expansions) {
             (0, _) => Self::Filter,
             (_, 0) => Self::Double,
@@ -160,24 +158,9 @@ mod tests {
         assert_eq!((ray((8, 0)), ray((0, 4)), ray((u16::MAX, u16::MAX))), (None, None, None));
     }
 
-    /// The unit sphere through its middle: a = 1, D = 1, roots 3 -+ 1; and through (1, 0), where it is touched: D = 0.
+    /// (`tests/program/pick.rs` has the unit sphere, worked by hand.)
     #[test]
-    fn the_unit_sphere_by_hand() {
-        let scene = unit();
-        let middle = pick(&scene, Ray::new(VIEW.eye, Vec3::NEG_Z));
-        assert_eq!(middle.hits, [Some(Hit { t: 2.0, sphere: 0 }); 4]);
-        let sphere = middle.sphere.expect("a sphere");
-        assert_eq!((sphere.index, sphere.label.as_deref()), (0, Some("one")));
-        assert_eq!(sphere.roots, [Some([2.0, 4.0]); 4]);
-        assert_eq!((sphere.discriminant.0, sphere.decided_by), (1.0, Stage::Double));
-
-        let edge = pick(&scene, Ray::new(VIEW.eye + Vec3::X, Vec3::NEG_Z));
-        assert_eq!(edge.hits, [Some(Hit { t: 3.0, sphere: 0 }); 4]);
-        let sphere = edge.sphere.expect("a sphere");
-        assert_eq!((sphere.discriminant.0, sphere.decided_by), (0.0, Stage::Expansions));
-
-        let past = pick(&scene, Ray::new(VIEW.eye + Vec3::X * 1.5, Vec3::NEG_Z));
-        assert_eq!((past.hits, past.sphere), ([None; 4], None));
+    fn of_nothing_nothing_is_told() {
         let nothing = Scene::new();
         assert_eq!(pick(&nothing, Ray::new(VIEW.eye, Vec3::NEG_Z)).sphere, None);
     }

@@ -19,16 +19,13 @@ pub fn write(
     (width, height): (u32, u32),
     draw: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Error> {
-    let failed = |error: &io::Error| match name.to_str() {
-        Some("-") => Error::of_output("standard output", error),
-        _ => Error::of_output(&name.to_string_lossy(), error),
-    };
-    let file = WholeFile::create(name).map_err(|error| failed(&error))?;
+    let failed = |error: io::Error| Error::of_file(name, &error);
+    let file = WholeFile::create(name).map_err(failed)?;
     let mut output = Output { file, error: None };
     let encoded = encode(&mut output, (width, height), draw);
     let Output { file, error } = output;
     let written = error.map_or(encoded, Err).and_then(|()| file.finish());
-    written.map_err(|error| failed(&error))
+    written.map_err(failed)
 }
 
 /// A PNG in memory, made fast rather than small; rows from the top: red, green and blue of every pixel.

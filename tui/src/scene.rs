@@ -21,6 +21,7 @@ pub mod reading;
 mod spacing;
 mod symbols;
 pub mod toml;
+mod type_colors;
 
 pub use lighting::{Light, Lighting, Source};
 pub use read_error::ReadError;

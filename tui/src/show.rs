@@ -6,7 +6,6 @@ mod conflicts;
 mod once;
 mod overwriting;
 mod reading;
-mod still;
 mod written;
 
 use crate::arguments::files::Subject;
@@ -35,7 +34,6 @@ use std::io::IsTerminal;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::time::Duration;
-use still::Still;
 use written::{Written, is_in_square_pixels};
 
 /// The widest cell and the narrowest that a terminal is believed to have.
@@ -148,23 +146,14 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         let table = arguments.show == Some(Overlay::Table);
         let start =
             viewer::Start { view, style, structure, comparison, table, legend: crowd.legend };
-        let colors = (&color_by, crowd.range);
-        let wire = viewer::Wire {
-            terminal,
-            surroundings,
-            color: arguments.color,
-            rate: arguments.fps,
-            lossless: arguments.lossless,
-            output: arguments.output,
-            asked: arguments.clone(),
-        };
+        let wire = viewer::Wire { terminal, surroundings, asked: arguments.clone() };
         let asked = arguments.scene.clone();
         let prepare = move |scene: &mut Scene| {
             background::paint(scene, background);
             asked.set_radii(scene).map_err(|error| format!("keeps its radii: {error}"))
         };
         let film = frames.map(|frames| Film::new(frames, frame, prepare));
-        return viewer::run(scene, colors, structures, start, renderer, (wire, film.transpose()?));
+        return viewer::run(scene, structures, start, renderer, (wire, film.transpose()?));
     }
 
     let size = (columns, rows);
@@ -198,17 +187,14 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
             if std::mem::take(&mut all_have_colors) {
                 say(&source, &format!("frame {index} keeps its colours: {error}"));
             }
-            Coloring { colors: None, legend: None }
+            Coloring::default()
         });
         if let Some(colors) = colored.colors {
             scene.set_colors(colors);
         }
         (scene, colored.legend.filter(|_| crowd.legend))
     };
-    let Written { mut renderer, structures, .. } = written;
-    let still = Still { view, style, structure, size, is_terminal };
-    let range = frame + 1..range.end;
-    still.pictures(&mut renderer, structures, frames, range, prepared)
+    written.following(frames, frame + 1..range.end, prepared)
 }
 
 /// Opens the scene. The frames of a turn are not the file's: they do not end the search for one with particles.

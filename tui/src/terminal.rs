@@ -18,19 +18,18 @@ mod tty;
 mod unanswered;
 mod wish;
 
-use crate::error::caught::is_caught;
+use crate::error::caught::before_message;
 use crate::error::{Error, cause};
 pub use abilities::{ASKED_IMAGE, Abilities, Uses};
 use abilities::{PATIENCE, questions};
 pub use input::Incoming;
-use input::Input;
+use input::{Input, or_hung_up};
 use multiplexer::Multiplexer;
 pub use reply::Reply;
 pub use size::{pixels_of_cell, size_of_stdout};
 use std::collections::VecDeque;
 use std::env;
 use std::io;
-use std::panic;
 use std::sync::Once;
 use std::time::{Duration, Instant};
 pub use wish::{Wish, wish};
@@ -253,12 +252,6 @@ impl Drop for Terminal {
     }
 }
 
-/// A terminal that goes away in the middle of a frame is treated as one that is found gone when it is read.
-fn or_hung_up(error: io::Error) -> io::Error {
-    let is_gone = error.raw_os_error() == Some(rustix::io::Errno::IO.raw_os_error());
-    if is_gone { input::hung_up() } else { error }
-}
-
 /// The error that the terminal is not there.
 #[must_use]
 pub fn lost(error: &io::Error) -> Error {
@@ -268,13 +261,5 @@ pub fn lost(error: &io::Error) -> Error {
 /// The message of a panic on the alternate screen would vanish with it. After one that is caught, the viewer goes on.
 fn restore_before_panic_message() {
     static HOOK: Once = Once::new();
-    HOOK.call_once(|| {
-        let print = panic::take_hook();
-        panic::set_hook(Box::new(move |panic| {
-            if !is_caught() {
-                screen::restore();
-            }
-            print(panic);
-        }));
-    });
+    HOOK.call_once(|| before_message(screen::restore));
 }

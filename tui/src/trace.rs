@@ -18,7 +18,7 @@ use crate::whole_file::{check_outputs, is_stdout};
 use batches::{batches, runs, workload};
 use passes::{Passes, Query};
 use report::Report;
-use spherule_kernel::{Coherence, Hit, Level, Ray, RayPacket, SphereList, Vec3};
+use spherule_kernel::{Coherence, Hit, Level, RayPacket, SphereList};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -47,7 +47,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
         (_, choice) => choice,
     };
     let list = Arc::new(SphereList::from(npy::read_rows::<4>(&arguments.spheres)?));
-    let rays: Vec<_> = npy::read_rows(&arguments.rays)?.into_iter().map(ray).collect();
+    let rays: Vec<_> = npy::read_rows(&arguments.rays)?.into_iter().map(npy::ray).collect();
     check_counts(arguments, list.len(), rays.len())?;
 
     let threads = Threads::new(threads)?;
@@ -130,8 +130,4 @@ fn check_counts(arguments: &TraceArguments, spheres: usize, rays: usize) -> Resu
         return Err(Error::Input(what));
     }
     Ok(())
-}
-
-fn ray([x, y, z, dx, dy, dz, t_min, t_max]: [f32; 8]) -> Ray {
-    Ray { origin: Vec3::new(x, y, z), direction: Vec3::new(dx, dy, dz), t_min, t_max }
 }

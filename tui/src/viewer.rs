@@ -35,16 +35,12 @@ mod wanted;
 mod worker;
 
 use crate::arguments::PictureArguments;
-use crate::choice::Auto;
-use crate::coloring::ColorBy;
-use crate::coloring::scale::Range;
 use crate::draw::Renderer;
 use crate::encode::Encoder;
 use crate::error::{Error, write_stdout};
-use crate::pixels::Output;
 use crate::scene::Scene;
 use crate::structure::scene::SceneStructures;
-use crate::terminal::color_depth::{ColorChoice, Surroundings};
+use crate::terminal::color_depth::Surroundings;
 use crate::terminal::{Terminal, lost};
 use colors::Colors;
 use film::Film;
@@ -75,45 +71,34 @@ pub struct Wire {
     pub terminal: Terminal,
     /// What decides how many colours there are: what the terminal says late counts, too.
     pub surroundings: Surroundings,
-    /// What `--color` says.
-    pub color: ColorChoice,
-    /// The most frames a second; `None`: as many as suit the link.
-    pub rate: Auto<u16>,
-    /// Whether every frame is sent as it is, and not one that looks alike.
-    pub lossless: bool,
-    /// What `--output` says.
-    pub output: Output,
     /// What the command line says.
     pub asked: PictureArguments,
 }
 
-/// Shows `scene`, which has its own colours, on the terminal until the user quits: from `start` on, coloured by
-/// `color_by`, and drawn by `renderer` with the chosen one of its `structures`.
+/// Shows `scene`, which has its own colours, on the terminal until the user quits: from `start` on, and drawn by
+/// `renderer` with the chosen one of its `structures`.
 ///
 /// # Errors
 /// [`Error::Running`] if there is no terminal to read keys from, or it goes away, or there is no
 /// memory for a structure.
 pub fn run(
     scene: Arc<Scene>,
-    (color_by, range): (&ColorBy, Option<Range>),
     structures: SceneStructures<'_>,
     start: Start,
     renderer: Renderer<'_>,
     (wire, film): (Wire, Option<Film>),
 ) -> Result<(), Error> {
-    let Wire { terminal, surroundings, color, rate, lossless, output, asked } = wire;
+    let Wire { terminal, surroundings, asked } = wire;
     let usual = if env::var_os("SSH_CONNECTION").is_some() { REMOTE_RATE } else { LOCAL_RATE };
-    let interval = Duration::from_secs(1) / u32::from(rate.unwrap_or(usual)).max(1);
-    let colors = Colors::new(&scene, color_by, range);
+    let interval = Duration::from_secs(1) / u32::from(asked.fps.unwrap_or(usual)).max(1);
+    let colors = Colors::new(&scene, &asked.crowd.color_by(&scene), asked.crowd.range);
     let mut viewer = Viewer {
         scene,
         changes: 0,
         film,
         order: structures.order(),
         surroundings,
-        color,
-        lossless,
-        pixels: Pixels::new(output, &terminal),
+        pixels: Pixels::new(asked.output, &terminal),
         terminal,
         asked,
         framed: None,

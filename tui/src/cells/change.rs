@@ -44,7 +44,7 @@ pub fn cost(missed: f32, glyph: char, excess: &[Vec3; 8], before: &Fitted) -> f3
 mod tests {
     use super::*;
 
-    const UPPER: Cover = [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0];
+    const UPPER: Cover = Fitted::UPPER.cover;
 
     #[test]
     fn an_error_that_stays_is_none_of_change() {
@@ -66,7 +66,7 @@ mod tests {
     fn at_rest_an_error_is_what_is_shown_less_what_was_sampled() {
         let [ink, paper] = [Vec3::splat(0.25), Vec3::splat(0.04)];
         let parts = [0.16, 0.25, 0.25, 0.25, 0.09, 0.04, 0.04, 0.04].map(Vec3::splat);
-        let mut fit = Fitted { glyph: '▀', cover: UPPER, ink, paper, parts, ..Fitted::NONE };
+        let mut fit = Fitted { ink, paper, parts, ..Fitted::UPPER };
         at_rest(&mut fit);
         let expected = [0.1, 0.0, 0.0, 0.0, -0.1, 0.0, 0.0, 0.0].map(Vec3::splat);
         for (found, expected) in fit.excess.iter().zip(expected) {

@@ -112,15 +112,10 @@ impl Dither {
                 let mean = (sum + entry.light) / (chosen + 1) as f32;
                 (oklab(mean) - look).length_squared() + DOT * distance
             };
-            let mut best = (f32::INFINITY, near[0].1);
-            for candidate in &near {
-                let cost = cost(candidate);
-                if cost < best.0 {
-                    best = (cost, candidate.1);
-                }
-            }
-            sum += best.1.light;
-            best.1
+            let costs = near.iter().map(|near| (cost(near), near.1));
+            let best = costs.min_by(by_distance).map_or(near[0].1, |best| best.1);
+            sum += best.light;
+            best
         });
         mix.sort_by(|a, b| a.look.x.total_cmp(&b.look.x));
         mix.map(|entry| entry.color)
@@ -149,12 +144,18 @@ mod tests {
         all.into_iter().flatten().flatten().map(Srgb::to_linear)
     }
 
+    fn distance(one: Vec3, other: Vec3) -> f32 {
+        (oklab(one) - oklab(other)).length()
+    }
+
+    const PLACES: [(usize, usize); 4] = [(0, 0), (1, 0), (0, 1), (1, 1)];
+
     #[test]
     fn entries_are_themselves() {
         let mut dither = dither();
         for index in 16..=255 {
             let light = xterm_256(index).to_linear();
-            let shown = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|place| dither.color(light, place));
+            let shown = PLACES.map(|place| dither.color(light, place));
             for color in shown.into_iter().chain([dither.nearest(light)]) {
                 // Some colours have two names.
                 assert_eq!(self::light(color), light);
@@ -169,9 +170,8 @@ mod tests {
         for wanted in colors() {
             let places = [(4, 6), (5, 6), (4, 7), (5, 7)];
             let four = places.map(|place| dither.color(wanted, place));
-            let distance = |light: Vec3| (oklab(light) - oklab(wanted)).length();
-            mixed += distance(four.map(light).iter().sum::<Vec3>() / 4.0);
-            single += distance(light(dither.nearest(wanted)));
+            mixed += distance(four.map(light).iter().sum::<Vec3>() / 4.0, wanted);
+            single += distance(light(dither.nearest(wanted)), wanted);
         }
         assert!(mixed < 0.9 * single, "{mixed} of {single}");
     }
@@ -183,11 +183,9 @@ mod tests {
         let mut dither = dither();
         let (mut noise, mut off, mut count) = (0.0, 0.0, 0.0);
         for wanted in colors() {
-            let four =
-                [(0, 0), (1, 0), (0, 1), (1, 1)].map(|place| light(dither.color(wanted, place)));
-            let distance = |light: Vec3| (oklab(light) - oklab(wanted)).length();
-            noise += four.map(distance).iter().sum::<f32>() / 4.0;
-            off += distance(four.iter().sum::<Vec3>() / 4.0);
+            let four = PLACES.map(|place| light(dither.color(wanted, place)));
+            noise += four.map(|light| distance(light, wanted)).iter().sum::<f32>() / 4.0;
+            off += distance(four.iter().sum::<Vec3>() / 4.0, wanted);
             count += 1.0;
         }
         let (noise, off) = (noise / count, off / count);
@@ -218,11 +216,10 @@ mod tests {
     fn nothing_else_looks_nearer_than_the_nearest() {
         let mut dither = dither();
         for wanted in colors() {
-            let distance = |light: Vec3| (oklab(light) - oklab(wanted)).length();
-            let least = (16..=255).map(|index| distance(xterm_256(index).to_linear()));
+            let least = (16..=255).map(|index| distance(xterm_256(index).to_linear(), wanted));
             let least = least.fold(f32::INFINITY, f32::min);
             // Colours are rounded first.
-            assert!(distance(light(dither.nearest(wanted))) < least + 0.02);
+            assert!(distance(light(dither.nearest(wanted)), wanted) < least + 0.02);
         }
     }
 }

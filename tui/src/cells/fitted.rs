@@ -34,6 +34,11 @@ impl Fitted {
         excess: [Vec3::ZERO; 8],
     };
 
+    /// An upper half, as tests have it.
+    #[cfg(test)]
+    pub(super) const UPPER: Self =
+        Self { glyph: '▀', cover: [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0], ..Self::NONE };
+
     /// How much of the cell the glyph covers.
     #[must_use]
     pub fn share(&self) -> f32 {

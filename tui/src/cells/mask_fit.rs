@@ -114,14 +114,8 @@ impl MaskFitter {
         if self.dots {
             return match best[0].1 {
                 Some(Candidate::Mask(bins, family, mask)) => {
-                    let means: [Vec3; 8] = bins.means(looks);
-                    braille::dots(
-                        mask.bits,
-                        layer_means(family, mask, &means),
-                        mean_look,
-                        self.eye.lent,
-                        parts,
-                    )
+                    let colors = layer_means(family, mask, &bins.means(looks));
+                    braille::dots(mask.bits, colors, mean_look, self.eye.lent, parts)
                 }
                 _ => one_color,
             };

@@ -51,25 +51,13 @@ pub fn opposite(glyph: char) -> Option<char> {
     OPPOSITES.chars().nth(place ^ 1)
 }
 
-/// Dots, of which a font fills some part of each bin.
-const BRAILLE: [&str; 16] = [
-    "⠀⠁⠈⠉⠂⠃⠊⠋⠐⠑⠘⠙⠒⠓⠚⠛",
-    "⠄⠅⠌⠍⠆⠇⠎⠏⠔⠕⠜⠝⠖⠗⠞⠟",
-    "⠠⠡⠨⠩⠢⠣⠪⠫⠰⠱⠸⠹⠲⠳⠺⠻",
-    "⠤⠥⠬⠭⠦⠧⠮⠯⠴⠵⠼⠽⠶⠷⠾⠿",
-    "⡀⡁⡈⡉⡂⡃⡊⡋⡐⡑⡘⡙⡒⡓⡚⡛",
-    "⡄⡅⡌⡍⡆⡇⡎⡏⡔⡕⡜⡝⡖⡗⡞⡟",
-    "⡠⡡⡨⡩⡢⡣⡪⡫⡰⡱⡸⡹⡲⡳⡺⡻",
-    "⡤⡥⡬⡭⡦⡧⡮⡯⡴⡵⡼⡽⡶⡷⡾⡿",
-    "⢀⢁⢈⢉⢂⢃⢊⢋⢐⢑⢘⢙⢒⢓⢚⢛",
-    "⢄⢅⢌⢍⢆⢇⢎⢏⢔⢕⢜⢝⢖⢗⢞⢟",
-    "⢠⢡⢨⢩⢢⢣⢪⢫⢰⢱⢸⢹⢲⢳⢺⢻",
-    "⢤⢥⢬⢭⢦⢧⢮⢯⢴⢵⢼⢽⢶⢷⢾⢿",
-    "⣀⣁⣈⣉⣂⣃⣊⣋⣐⣑⣘⣙⣒⣓⣚⣛",
-    "⣄⣅⣌⣍⣆⣇⣎⣏⣔⣕⣜⣝⣖⣗⣞⣟",
-    "⣠⣡⣨⣩⣢⣣⣪⣫⣰⣱⣸⣹⣲⣳⣺⣻",
-    "⣤⣥⣬⣭⣦⣧⣮⣯⣴⣵⣼⣽⣶⣷⣾⣿",
-];
+/// Which bit of a code of Braille is the dot in each bin. A font fills some part of the bin.
+const DOTS: [u32; 8] = [0, 3, 1, 4, 2, 5, 6, 7];
+
+fn braille() -> Vec<char> {
+    let dots = |mask: u32| (0..8).map(|bin: usize| (mask >> bin & 1) << DOTS[bin]).sum::<u32>();
+    (0..256).filter_map(|mask| char::from_u32(0x2800 + dots(mask))).collect()
+}
 
 /// Eighths from the left, 1 to 7, and from the bottom.
 const LEFT_EIGHTHS: &str = "▏▎▍▌▋▊▉";
@@ -131,15 +119,12 @@ impl Family {
 
 fn cover(across: usize, down: usize, bits: u8) -> Cover {
     array::from_fn(|part| {
-        let columns = (0..across).map(|bin| (bin, overlap((part % 2, 2), (bin, across))));
-        columns
-            .flat_map(|(column, width)| {
-                let rows = (0..down).map(move |bin| (bin, overlap((part / 2, 4), (bin, down))));
-                rows.map(move |(row, height)| (row * across + column, width * height))
-            })
-            .filter(|(bin, _)| bits >> bin & 1 == 1)
-            .map(|(_, area)| area)
-            .sum()
+        let bins = (0..across).flat_map(|column| (0..down).map(move |row| (column, row)));
+        let filled = bins.filter(|(column, row)| bits >> (row * across + column) & 1 == 1);
+        let area = |(column, row)| {
+            overlap((part % 2, 2), (column, across)) * overlap((part / 2, 4), (row, down))
+        };
+        filled.map(area).sum()
     })
 }
 
@@ -188,8 +173,9 @@ fn eighths() -> [Family; 2] {
 #[must_use]
 pub fn repertoire(charset: Charset) -> &'static Repertoire {
     static ALL: LazyLock<[Repertoire; 6]> = LazyLock::new(|| {
-        let [halves, quadrants, sextants, octants, braille] =
-            [&HALVES[..], &QUADRANTS, &SEXTANTS, &OCTANTS, &BRAILLE].map(table);
+        let [halves, quadrants, sextants, octants] =
+            [&HALVES[..], &QUADRANTS, &SEXTANTS, &OCTANTS].map(table);
+        let braille = braille();
         let family = Family::of_table;
         let (two, four) = (family(1, 2, &halves), family(2, 2, &quadrants));
         let (six, eight) = (family(2, 3, &sextants), family(2, 4, &octants));

@@ -70,12 +70,8 @@ impl Painter {
         let cells = cells.iter_mut().zip(own);
         match &mut self.colors {
             Colors::Letters => {
-                let glyphs = self.tones.choose(
-                    fits,
-                    columns,
-                    rows,
-                    before.map(|(cells, row)| (cells, row - known)),
-                );
+                let before = before.map(|(cells, row)| (cells, row - known));
+                let glyphs = self.tones.choose(fits, columns, rows, before);
                 for ((cell, _), &glyph) in cells.zip(glyphs) {
                     *cell = Cell { glyph, ..Cell::BLANK };
                 }

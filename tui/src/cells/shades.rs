@@ -6,7 +6,7 @@
 //!
 //! Some terminals have only eight of the colours for paper. There another is ink alone: a whole block of it, or the rest of the glyph.
 
-use super::fitted::Fitted;
+use super::fitted::{Fitted, rank};
 use super::letter::LETTERS;
 use super::masks::opposite;
 use super::{Cell, Color};
@@ -76,13 +76,8 @@ impl Shades {
                     // Of two that look the same, the one whose ink is lighter is taken, as most are.
                     let is_other = ink.is_paper && ink.look.x < paper.look.x;
                     if apart > 0.0 && (is_ascii || !is_other) {
-                        shades.push(Shade {
-                            glyph,
-                            ink: ink.color,
-                            paper: paper.color,
-                            look,
-                            cost,
-                        });
+                        let (ink, paper) = (ink.color, paper.color);
+                        shades.push(Shade { glyph, ink, paper, look, cost });
                     }
                 }
             }
@@ -131,14 +126,9 @@ impl Shades {
 
     /// The entries that look nearest, of those that `may` be taken.
     fn nearest(&self, look: Vec3, may: impl Fn(&Entry) -> bool) -> [&Entry; NEAREST] {
-        let mut nearest = [(f32::INFINITY, &self.entries[0]); NEAREST];
+        let mut nearest = [(f32::NEG_INFINITY, &self.entries[0]); NEAREST];
         for entry in self.entries.iter().filter(|&entry| may(entry)) {
-            let mut next = ((entry.look - look).length_squared(), entry);
-            for place in &mut nearest {
-                if next.0 < place.0 {
-                    std::mem::swap(place, &mut next);
-                }
-            }
+            rank(&mut nearest, (-(entry.look - look).length_squared(), entry));
         }
         nearest.map(|(_, entry)| entry)
     }
@@ -186,12 +176,8 @@ mod tests {
     #[test]
     fn halves_are_kept_where_they_differ() {
         let shades = shades(Charset::Half);
-        let fit =
-            Fitted {
-                glyph: '▀', cover: [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0], ..Fitted::NONE
-            };
         let [green, blue] = [Srgb([0, 200, 10]), Srgb([10, 0, 230])].map(Srgb::to_linear);
-        let cell = shades.cell(&fit, [green, blue]);
+        let cell = shades.cell(&Fitted::UPPER, [green, blue]);
         let expected =
             Cell { glyph: '▀', foreground: Color::Ansi16(2), background: Color::Ansi16(4) };
         assert_eq!(cell, expected);
@@ -209,10 +195,7 @@ mod tests {
     #[test]
     fn where_eight_colours_can_be_paper_no_other_is() {
         let theme = Theme { papers: 8, ..Theme::VGA };
-        let upper =
-            Fitted {
-                glyph: '▀', cover: [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0], ..Fitted::NONE
-            };
+        let upper = Fitted::UPPER;
         for charset in [Charset::Ascii, Charset::Half, Charset::Block] {
             let shades = Shades::new(entries(ColorDepth::Ansi16, &theme), charset);
             for ink in theme.colors.map(Srgb::to_linear) {

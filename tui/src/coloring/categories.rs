@@ -108,13 +108,9 @@ mod tests {
 
     #[test]
     fn everybody_tells_twelve_names_apart() {
-        assert!(
-            least(4) > 0.18 && least(8) > 0.09 && least(12) > 0.075,
-            "{} {} {}",
-            least(4),
-            least(8),
-            least(12)
-        );
+        for (count, apart) in [(4, 0.18), (8, 0.09), (12, 0.075)] {
+            assert!(least(count) > apart, "{count}: {}", least(count));
+        }
         for place in 0..36 {
             let light = oklab(category(place).to_linear()).x;
             assert!((0.35..0.97).contains(&light), "{place}: {light}");

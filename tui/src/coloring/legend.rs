@@ -79,13 +79,8 @@ impl Legend {
                 }
                 column += text.len();
             }
-            cells.write(
-                column as u16,
-                row,
-                &" ".repeat(left + widest - column),
-                Color::Default,
-                Color::Default,
-            );
+            let rest = " ".repeat(left + widest - column);
+            cells.write(column as u16, row, &rest, Color::Default, Color::Default);
         }
     }
 
@@ -196,7 +191,7 @@ mod tests {
         let mut cells = CellGrid::new(columns, rows);
         cells.cells_mut().iter_mut().for_each(|cell| cell.glyph = '.');
         legend.write(&mut cells, rows, style);
-        (0..rows).map(|row| cells.row(row).iter().map(|cell| cell.glyph).collect()).collect()
+        cells.lines()
     }
 
     fn names(count: u8) -> Legend {

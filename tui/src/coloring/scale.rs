@@ -5,6 +5,7 @@
 //! left out, since it is lost on a dark ground and in a shade.
 
 use crate::color::Srgb;
+use std::cmp::Ordering;
 use std::str::FromStr;
 
 /// The numbers between which colours lie.
@@ -35,18 +36,11 @@ impl Range {
     pub fn place(self, value: f32) -> Option<f32> {
         // In double precision the difference of two floats does not overflow.
         let [low, high, value] = [self.low, self.high, value].map(f64::from);
-        if value.is_nan() {
-            None
-        } else if low == high {
-            Some(if value < low {
-                0.0
-            } else if value > high {
-                1.0
-            } else {
-                0.5
-            })
-        } else {
-            Some(((value - low) / (high - low)).clamp(0.0, 1.0) as f32)
+        match value.partial_cmp(&low)? {
+            _ if low != high => Some(((value - low) / (high - low)).clamp(0.0, 1.0) as f32),
+            Ordering::Less => Some(0.0),
+            Ordering::Equal => Some(0.5),
+            Ordering::Greater => Some(1.0),
         }
     }
 }

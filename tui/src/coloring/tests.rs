@@ -1,9 +1,10 @@
 use super::*;
 use crate::scene::attributes::NamesBuilder;
 use spherule_kernel::{SphereList, Vec3};
+use std::iter::successors;
 
 /// Four atoms: C and N of chain A, O of chain B, and one that no one knows anything of.
-fn scene() -> Scene {
+fn attributes() -> Attributes {
     let mut chains = NamesBuilder::default();
     for name in ["A", "A", "B", ""] {
         chains.push(name.as_bytes());
@@ -13,14 +14,43 @@ fn scene() -> Scene {
     attributes.elements = Some(vec![6, 7, 8, 0]);
     attributes.columns = vec![column];
     attributes.set_names(Naming::Chain, chains.finish());
+    attributes
+}
+
+/// The same with more columns.
+fn with_columns(names: &[&str], values: [f32; 4]) -> Attributes {
+    let mut attributes = attributes();
+    let column = |name: &&str| NumberColumn { name: (*name).into(), values: values.into() };
+    attributes.columns.extend(names.iter().map(column));
+    attributes
+}
+
+fn colored(attributes: Attributes, by: &str, range: Option<Range>) -> Result<Coloring, String> {
     let list = SphereList::from_iter([(Vec3::ZERO, 1.0); 4]);
-    Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes)
+    let scene = Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes);
+    let by: ColorBy = by.parse().expect("a choice");
+    coloring(&scene, &by, range, &mut Seen::default())
 }
 
 fn colors(by: &str, range: Option<Range>) -> Vec<Srgb> {
-    let by: ColorBy = by.parse().expect("a choice");
-    let coloring = coloring(&scene(), &by, range, &mut Seen::default()).expect("colours");
+    let coloring = colored(attributes(), by, range).expect("colours");
     coloring.colors.expect("not the scene's own")
+}
+
+impl Legend {
+    /// Of a scale between two numbers.
+    pub(crate) fn of_numbers(title: &str, low: f32, high: f32, has_none: bool) -> Self {
+        Self::new(title, Entries::Numbers { range: Range { low, high }, has_none })
+    }
+
+    fn of_chains(names: &[(Srgb, &str)]) -> Self {
+        let names = names.iter().map(|&(color, name)| (color, name.to_owned()));
+        Self::new("chain", Entries::Names(names.collect()))
+    }
+}
+
+fn names(choices: &[ColorBy]) -> Vec<&str> {
+    choices.iter().map(ColorBy::name).collect()
 }
 
 #[test]
@@ -45,37 +75,21 @@ fn numbers_have_a_scale_of_their_own_range_or_another() {
 /// Also where the scene has names of that kind besides, as those of elements are types.
 #[test]
 fn a_column_of_the_file_s_own_goes_before_names() {
-    let mut attributes = scene().attributes().clone();
-    for name in ["Chain", "type"] {
-        attributes
-            .columns
-            .push(NumberColumn { name: name.into(), values: vec![0.0, 1.0, 2.0, 1.0] });
-    }
+    let attributes = with_columns(&["Chain", "type"], [0.0, 1.0, 2.0, 1.0]);
     let choices = ColorBy::choices(&attributes);
-    let names: Vec<_> = choices.iter().map(ColorBy::name).collect();
-    assert_eq!(names, ["scene", "element", "b_factor", "Chain", "type"]);
-    let list = SphereList::from_iter([(Vec3::ZERO, 1.0); 4]);
-    let scene = Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes);
+    assert_eq!(names(&choices), ["scene", "element", "b_factor", "Chain", "type"]);
     for (by, name) in [("chain", "Chain"), ("type", "type")] {
-        let by: ColorBy = by.parse().expect("a choice");
-        let found = coloring(&scene, &by, None, &mut Seen::default()).expect("colours");
+        let found = colored(attributes.clone(), by, None).expect("colours");
         let [low, middle, high] = [0.0, 0.5, 1.0].map(color_of);
         assert_eq!(found.colors, Some(vec![low, middle, high, middle]));
-        let range = Range { low: 0.0, high: 2.0 };
-        let numbers = Entries::Numbers { range, has_none: false };
-        assert_eq!(found.legend, Some(Legend::new(name, numbers)));
+        assert_eq!(found.legend, Some(Legend::of_numbers(name, 0.0, 2.0, false)));
     }
 }
 
 #[test]
 fn every_choice_can_be_asked_for_by_its_name() {
-    let mut attributes = scene().attributes().clone();
-    for name in ["", "scene", "Charge"] {
-        attributes.columns.push(NumberColumn { name: name.into(), values: vec![1.0; 4] });
-    }
-    let choices = ColorBy::choices(&attributes);
-    let names: Vec<_> = choices.iter().map(ColorBy::name).collect();
-    assert_eq!(names, ["scene", "element", "chain", "b_factor", "Charge"]);
+    let choices = ColorBy::choices(&with_columns(&["", "scene", "Charge"], [1.0; 4]));
+    assert_eq!(names(&choices), ["scene", "element", "chain", "b_factor", "Charge"]);
     for choice in choices {
         assert_eq!(choice.name().parse::<ColorBy>(), Ok(choice));
     }
@@ -84,17 +98,10 @@ fn every_choice_can_be_asked_for_by_its_name() {
 /// A table has such columns beside its numbers.
 #[test]
 fn a_column_of_words_is_none_of_numbers() {
-    let mut attributes = scene().attributes().clone();
-    for name in ["Label", "residue"] {
-        attributes.columns.push(NumberColumn { name: name.into(), values: vec![f32::NAN; 4] });
-    }
-    let choices = ColorBy::choices(&attributes);
-    assert_eq!(choices, ColorBy::choices(scene().attributes()));
-    let list = SphereList::from_iter([(Vec3::ZERO, 1.0); 4]);
-    let scene = Scene::of_spheres(list, vec![Srgb::WHITE; 4], attributes);
+    let with_words = with_columns(&["Label", "residue"], [f32::NAN; 4]);
+    assert_eq!(ColorBy::choices(&with_words), ColorBy::choices(&attributes()));
     for (by, name) in [("label", "Label"), ("residue", "residue")] {
-        let by: ColorBy = by.parse().expect("a choice");
-        let error = coloring(&scene, &by, None, &mut Seen::default()).expect_err("words");
+        let error = colored(with_words.clone(), by, None).expect_err("words");
         let expected = format!(
             "column {name} has no number to colour by; there are scene, element, chain, b_factor"
         );
@@ -105,12 +112,9 @@ fn a_column_of_words_is_none_of_numbers() {
 #[test]
 fn what_a_scene_does_not_have_is_said_with_what_it_has() {
     for by in ["residue", "charge"] {
-        let by: ColorBy = by.parse().expect("a choice");
-        let error = coloring(&scene(), &by, None, &mut Seen::default()).expect_err("missing");
-        let expected = format!(
-            "no {} in this scene to colour by; it has scene, element, chain, b_factor",
-            by.name()
-        );
+        let error = colored(attributes(), by, None).expect_err("missing");
+        let expected =
+            format!("no {by} in this scene to colour by; it has scene, element, chain, b_factor");
         assert_eq!(error, expected);
     }
     assert!("".parse::<ColorBy>().is_err());
@@ -118,38 +122,29 @@ fn what_a_scene_does_not_have_is_said_with_what_it_has() {
 
 #[test]
 fn a_key_goes_through_all_there_is_in_a_circle() {
-    let scene = scene();
-    let mut by = ColorBy::Scene;
-    let mut seen = Vec::new();
-    for _ in 0..5 {
-        seen.push(by.name().to_owned());
-        by = by.next(scene.attributes());
-    }
-    assert_eq!(seen, ["scene", "element", "chain", "b_factor", "scene"]);
+    let attributes = attributes();
+    let circle = successors(Some(ColorBy::Scene), |by| Some(by.next(&attributes)));
+    let circle: Vec<_> = circle.take(5).collect();
+    assert_eq!(names(&circle), ["scene", "element", "chain", "b_factor", "scene"]);
     assert_eq!(ColorBy::Scene.next(Scene::new().attributes()), ColorBy::Scene);
 }
 
 #[test]
 fn several_chains_are_coloured_unless_the_file_has_colours() {
-    assert_eq!(ColorBy::usual(scene().attributes()), ColorBy::Names(Naming::Chain));
+    let mut attributes = attributes();
+    assert_eq!(ColorBy::usual(&attributes), ColorBy::Names(Naming::Chain));
     assert_eq!(ColorBy::usual(Scene::new().attributes()), ColorBy::Scene);
-    let mut attributes = scene().attributes().clone();
     attributes.own.colors = true;
     assert_eq!(ColorBy::usual(&attributes), ColorBy::Scene);
 }
 
 #[test]
 fn legends_say_what_there_is() {
-    let legend = |by: &str| {
-        let by: ColorBy = by.parse().expect("a choice");
-        coloring(&scene(), &by, None, &mut Seen::default()).expect("colours").legend
-    };
+    let legend = |by| colored(attributes(), by, None).expect("colours").legend;
     let names = [(category(0), "A"), (category(1), "B"), (NEUTRAL, "none")];
-    let names = names.map(|(color, name)| (color, name.to_owned())).to_vec();
-    assert_eq!(legend("chain"), Some(Legend::new("chain", Entries::Names(names))));
-    let range = Range { low: 10.0, high: 30.0 };
-    let numbers = Entries::Numbers { range, has_none: true };
-    assert_eq!(legend("b_factor"), Some(Legend::new("b_factor", numbers)));
+    assert_eq!(legend("chain"), Some(Legend::of_chains(&names)));
+    let numbers = Legend::of_numbers("b_factor", 10.0, 30.0, true);
+    assert_eq!(legend("b_factor"), Some(numbers));
     assert_eq!(legend("scene"), None);
 }
 
@@ -180,13 +175,9 @@ fn a_colour_means_the_same_in_all_frames() {
     let colors = chains.each_ref().map(|of| of.colors.clone().expect("not the scene's own"));
     assert_eq!(colors, [vec![one, two], vec![two], vec![NEUTRAL, three, two, one]]);
     let names = [(one, "1"), (two, "2"), (three, "3"), (NEUTRAL, "none")];
-    let names = names.map(|(color, name)| (color, name.to_owned())).to_vec();
-    assert_eq!(chains[2].legend, Some(Legend::new("chain", Entries::Names(names))));
+    assert_eq!(chains[2].legend, Some(Legend::of_chains(&names)));
 
-    let legend = |low, high| {
-        let range = Range { low, high };
-        Some(Legend::new("q", Entries::Numbers { range, has_none: false }))
-    };
+    let legend = |low, high| Some(Legend::of_numbers("q", low, high, false));
     // A range that is asked for is no part of what has been seen.
     let asked = colored(ColorBy::Column("q".into()), Some(Range { low: 9.0, high: 1.0 }));
     assert!(asked.iter().all(|of| of.legend == legend(9.0, 1.0)));

@@ -142,15 +142,11 @@ impl Worker {
         tiles.clear();
         tiles.extend(corners);
         rays.resize(tiles.len(), RayPacket::inactive());
+        let grid = CameraTiles { camera: *camera, size: (width, height), corners: tiles };
         let mut trace = |tier, hits: &mut Vec<HitPacket>| {
             hits.resize(rays.len(), HitPacket::none());
             let tracing = Tracing { tier, ..tracing };
-            for part in search.camera.parts(rays.len(), threads) {
-                let corners = &tiles[part.clone()];
-                let tiles = CameraTiles { camera: *camera, size: (width, height), corners };
-                let (rays, hits) = (&mut rays[part.clone()], &mut hits[part]);
-                search.camera.tile_hits(tracing, scratch, tiles, rays, hits);
-            }
+            search.camera.tile_hits(tracing, (&mut *scratch, threads), grid, rays, hits);
         };
         trace(tracing.tier, answers);
         trace(Tier::Exact, truths);

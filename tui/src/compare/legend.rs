@@ -4,7 +4,7 @@ use super::error_map::ErrorMap;
 use super::grouped;
 use super::marks::{BANDS, Marks, band};
 use super::verdict::{Class, Counts, Worst};
-use crate::cells::{CellGrid, Color};
+use crate::cells::{Cell, CellGrid, Color};
 use crate::style::Style;
 use spherule_kernel::Tier;
 use std::ops::Range;
@@ -88,18 +88,12 @@ impl MapPainter {
         let mut column = 1_u16;
         for word in words {
             if let Some(class) = word.mark {
-                self.put(cells, column, row, class);
+                let Cell { glyph, foreground, background } = self.marks.cell(class);
+                cells.write(column, row, glyph.encode_utf8(&mut [0; 4]), foreground, background);
                 column = column.saturating_add(2);
             }
             cells.write(column, row, &word.text, Color::Default, Color::Default);
             column = column.saturating_add(word.text.len() as u16 + 2);
-        }
-    }
-
-    fn put(&self, cells: &mut CellGrid, column: u16, row: u16, class: Class) {
-        let place = usize::from(row) * usize::from(cells.columns()) + usize::from(column);
-        if column < cells.columns() {
-            cells.cells_mut()[place] = self.marks.cell(class);
         }
     }
 }
@@ -230,8 +224,7 @@ mod tests {
             let style = Style { samples: Some(64), ..fast(ColorDepth::Never, Charset::Ascii) };
             let map = map("edge", &style, (columns, 24), 2);
             let cells = MapPainter::new(&style).cells(&map, 0..24);
-            let lines = (0..24).map(|row| cells.row(row).iter().map(|cell| cell.glyph).collect());
-            let lines: Vec<String> = lines.collect();
+            let lines = cells.lines();
             let legend = &lines[24 - rows..];
             assert!(legend[0].starts_with(" fast:  "), "{columns}: {lines:#?}");
             let Counts { other_spheres, false_hits, lost_hits, other_root, right, .. } = map.counts;
@@ -262,8 +255,7 @@ mod tests {
         let style = Style { accuracy: Tier::Exact, ..fast(ColorDepth::Never, Charset::Ascii) };
         let map = map("unit", &style, (40, 12), 1);
         let cells = MapPainter::new(&style).cells(&map, 0..12);
-        let text: String = cells.row(10).iter().map(|cell| cell.glyph).collect();
-        assert_eq!(text.trim(), "exact: all right, it is the truth");
+        assert_eq!(cells.lines()[10].trim(), "exact: all right, it is the truth");
     }
 
     #[test]
@@ -272,7 +264,7 @@ mod tests {
             let style = fast(ColorDepth::Never, Charset::Ascii);
             let map = map("edge", &style, size, 2);
             let cells = MapPainter::new(&style).cells(&map, 0..size.1);
-            let text: String = cells.cells().iter().map(|cell| cell.glyph).collect();
+            let text = cells.lines().concat();
             assert_eq!(cells.cells().len(), usize::from(size.0) * usize::from(size.1));
             assert_eq!(text.contains("fast"), size.0 > 5 && size.1 >= FEWEST_ROWS, "{text}");
         }

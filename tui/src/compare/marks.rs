@@ -1,9 +1,9 @@
 //! How a class of errors looks in a cell: a colour, or a letter.
 
 use super::verdict::Class;
-use crate::cells::{Cell, Color};
-use crate::color::{Srgb, luminance, oklab};
-use crate::palette::{Entry, entries};
+use crate::cells::Cell;
+use crate::color::{Srgb, luminance};
+use crate::palette::{shown, shown_by};
 use crate::style::{Charset, ColorDepth, Style};
 
 /// The least ulp of every grey but the first, which is no error at all.
@@ -66,14 +66,6 @@ impl Marks {
     pub(super) fn new(style: &Style) -> Self {
         let has_letters = style.charset == Charset::Ascii
             || matches!(style.depth, ColorDepth::Never | ColorDepth::Ansi16);
-        let nearest = |srgb: Srgb, is_paper: bool| {
-            let look = oklab(srgb.to_linear());
-            let away = |entry: Entry| (entry.look - look).length_squared();
-            let entries = entries(style.depth, &style.theme).into_iter();
-            let entries = entries.filter(|entry| entry.is_paper || !is_paper);
-            let best = entries.min_by(|&a, &b| away(a).total_cmp(&away(b)));
-            best.map_or(Color::Rgb(srgb.0), |entry| entry.color)
-        };
         let classes = [Class::Miss, Class::Right].into_iter().chain((0..32).map(Class::Off));
         let decisions =
             [Class::OtherRoot, Class::LostHit, Class::FalseHit, Class::OtherSphere].into_iter();
@@ -86,9 +78,10 @@ impl Marks {
                 let paper = color(class);
                 let is_dark = luminance(paper.to_linear()) < 0.18;
                 let ink = if is_dark { Srgb::WHITE } else { Srgb::BLACK };
-                cell.background = nearest(paper, true);
+                let (depth, theme) = (style.depth, &style.theme);
+                cell.background = shown_by(paper, depth, theme, |entry| entry.is_paper);
                 if cell.glyph != ' ' {
-                    cell.foreground = nearest(ink, false);
+                    cell.foreground = shown(ink, depth, theme);
                 }
             }
         }
@@ -111,6 +104,7 @@ impl Marks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cells::Color;
     use crate::palette::Theme;
 
     const DECISIONS: [Class; 4] =

@@ -11,7 +11,6 @@ use crate::scene::Scene;
 use crate::shade::silhouettes::{Seen, SeenGrid};
 use crate::structure::choose::Workload;
 use crate::structure::scene::PictureSearch;
-use crate::structure::search::Tracing;
 use crate::style::Style;
 use crate::view::View;
 use spherule_kernel::{Camera, Tier, Vec3};
@@ -132,8 +131,7 @@ impl Renderer<'_> {
         grid: &PixelGrid,
         mut take: impl FnMut(&[u8]) -> Result<(), E>,
     ) -> Result<(), E> {
-        let tracing = Tracing { tier: accuracy, level: self.level, coherence: search.coherence };
-        let traced = Traced { tracing, scene, search, threads: self.threads };
+        let traced = self.traced(scene, search, accuracy);
         let (style, (columns, cell_rows)) = (&grid.style, grid.cells);
         let few = CellSamples::FEW;
         let few_grid = SampleGrid::new(&grid.view, style, few, columns, cell_rows);

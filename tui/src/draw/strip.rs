@@ -192,16 +192,9 @@ impl Strip {
         fits.resize(fitted.len() * plan.columns, Fitted::NONE);
         let bands = fits.chunks_mut(band).zip(needs.chunks(band));
         let bands = bands.zip(fitted.clone().step_by(BAND));
-        let known = (&**light, sampled.start);
+        let (known, edges) = ((&**light, sampled.start), edges.as_ref().map(|(_, grid)| grid));
         threads.share(workers, bands, |worker, ((fits, needs), first)| {
-            count(worker.fit(
-                plan,
-                many,
-                known,
-                first,
-                (fits, needs),
-                edges.as_ref().map(|(_, grid)| grid),
-            ));
+            count(worker.fit(plan, many, known, first, (fits, needs), edges));
         });
 
         let before = Some((&**shown, rows.start)).filter(|(shown, _)| shown.len() == cells.len());

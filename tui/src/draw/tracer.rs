@@ -109,12 +109,9 @@ impl Tracer {
         self.corners.extend(corners);
         self.rays.resize(self.corners.len(), RayPacket::inactive());
         self.hits.resize(self.corners.len(), HitPacket::none());
-        for part in search.camera.parts(self.corners.len(), threads) {
-            let corners = &self.corners[part.clone()];
-            let tiles = CameraTiles { camera, size: (width, height), corners };
-            let (rays, hits) = (&mut self.rays[part.clone()], &mut self.hits[part]);
-            search.camera.tile_hits(tracing, &mut self.scratch, tiles, rays, hits);
-        }
+        let tiles = CameraTiles { camera, size: (width, height), corners: &self.corners };
+        let memory = (&mut self.scratch, threads);
+        search.camera.tile_hits(tracing, memory, tiles, &mut self.rays, &mut self.hits);
 
         // The background is light already; what was met is noted for the shader.
         self.picture.reset(pixels);

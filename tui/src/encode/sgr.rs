@@ -12,23 +12,13 @@ pub(super) const RESET: &[u8] = b"\x1b[m";
 /// The colours that the terminal will draw the next glyph with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Pen {
-    foreground: Color,
-    background: Color,
+    pub(super) foreground: Color,
+    pub(super) background: Color,
 }
 
 impl Pen {
     /// After a reset.
     pub(super) const RESET: Self = Self { foreground: Color::Default, background: Color::Default };
-
-    /// Whether it draws with that ink.
-    pub(super) fn has_ink(self, color: Color) -> bool {
-        self.foreground == color
-    }
-
-    /// Whether it draws on that paper.
-    pub(super) fn has_paper(self, color: Color) -> bool {
-        self.background == color
-    }
 
     /// The cell that `glyph` makes.
     pub(super) fn painted(self, glyph: char) -> Cell {

@@ -9,6 +9,12 @@ use crate::cells::{Cell, CellGrid, Color};
 use proptest::prelude::*;
 use std::num::NonZeroU16;
 
+fn grid_of(columns: u16, rows: u16, cells: &[Cell]) -> CellGrid {
+    let mut grid = CellGrid::new(columns, rows);
+    grid.cells_mut().copy_from_slice(cells);
+    grid
+}
+
 fn terminal(columns: u16, rows: u16) -> vt100::Parser {
     let size = |count| NonZeroU16::new(count).expect("a terminal has cells");
     vt100::Parser::new(size(rows), size(columns), 100)
@@ -57,7 +63,7 @@ fn exchanged(cell: &Cell) -> Cell {
     Cell { glyph, foreground: cell.background, background: cell.foreground }
 }
 
-fn any_color() -> impl Strategy<Value = Color> {
+fn any_color() -> impl Strategy<Value = Color> + Clone {
     prop_oneof![
         Just(Color::Default),
         (0..16_u8).prop_map(Color::Ansi16),
@@ -67,36 +73,35 @@ fn any_color() -> impl Strategy<Value = Color> {
     ]
 }
 
+fn any_cell(
+    glyphs: &'static [char],
+    color: impl Strategy<Value = Color> + Clone,
+) -> impl Strategy<Value = Cell> + Clone {
+    let glyph = prop::sample::select(glyphs);
+    (glyph, color.clone(), color).prop_map(|(glyph, foreground, background)| Cell {
+        glyph,
+        foreground,
+        background,
+    })
+}
+
 /// Frames of colours that are nearly the same.
 fn frames_alike() -> impl Strategy<Value = Vec<CellGrid>> {
     let color =
         (0..12_u8, 0..3_u8).prop_map(|(level, hue)| Color::Rgb([128 + level, 128, 128 + hue]));
     let color = prop_oneof![9 => color, 1 => any_color()];
-    let glyph = prop::sample::select(vec![' ', '▀', '▄', '▌', '▚', '█', 'x']);
-    let cell = (glyph, color.clone(), color).prop_map(|(glyph, foreground, background)| Cell {
-        glyph,
-        foreground,
-        background,
-    });
+    let cell = any_cell(&[' ', '▀', '▄', '▌', '▚', '█', 'x'], color);
     (1..20_u16, 1..6_u16).prop_flat_map(move |(columns, rows)| {
         let count = usize::from(columns) * usize::from(rows);
-        let grid = prop::collection::vec(cell.clone(), count).prop_map(move |cells| {
-            let mut grid = CellGrid::new(columns, rows);
-            grid.cells_mut().copy_from_slice(&cells);
-            grid
-        });
+        let cells = prop::collection::vec(cell.clone(), count);
+        let grid = cells.prop_map(move |cells| grid_of(columns, rows, &cells));
         prop::collection::vec(grid, 1..5)
     })
 }
 
 /// Few different cells, so that neighbours share colours and frames share cells.
 fn any_frames() -> impl Strategy<Value = Vec<CellGrid>> {
-    let glyph = prop::sample::select(vec![' ', 'a', '@', '\u{2580}', '\u{2584}', '\x1b', '\n']);
-    let cell = (glyph, any_color(), any_color()).prop_map(|(glyph, foreground, background)| Cell {
-        glyph,
-        foreground,
-        background,
-    });
+    let cell = any_cell(&[' ', 'a', '@', '\u{2580}', '\u{2584}', '\x1b', '\n'], any_color());
     let palette = prop::collection::vec(cell, 1..5);
     (1..40_u16, 1..12_u16, palette).prop_flat_map(|(columns, rows, palette)| {
         let count = usize::from(columns) * usize::from(rows);
@@ -109,8 +114,7 @@ fn any_frames() -> impl Strategy<Value = Vec<CellGrid>> {
             let mut grid = CellGrid::new(columns, rows);
             let mut grids = Vec::new();
             for (picks, kept, keep, mark) in frames {
-                let mut next = CellGrid::new(columns, rows);
-                next.cells_mut().copy_from_slice(grid.cells());
+                let mut next = grid_of(columns, rows, grid.cells());
                 next.set_mark(mark.unwrap_or(grid.marked()));
                 grid = next;
                 for ((cell, pick), chance) in grid.cells_mut().iter_mut().zip(picks).zip(kept) {
@@ -182,8 +186,7 @@ proptest! {
     #[test]
     fn lines_show_the_grid(frames in any_frames()) {
         // There is no mark in a file.
-        let grid = &mut CellGrid::new(frames[0].columns(), frames[0].rows());
-        grid.cells_mut().copy_from_slice(frames[0].cells());
+        let grid = &grid_of(frames[0].columns(), frames[0].rows(), frames[0].cells());
         let mut bytes = Vec::new();
         full(grid, &mut bytes);
         prop_assert_eq!(bytes.iter().filter(|byte| **byte == b'\n').count(), usize::from(grid.rows()));

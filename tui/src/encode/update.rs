@@ -120,10 +120,10 @@ impl<'a> Update<'a> {
             ahead::color(self.tolerance, layer, (own, share), next, errors)
         };
         let (mut suited, ink) = (sent, ink(sent.glyph));
-        if ink < 1.0 && !self.pen.has_paper(sent.background) {
+        if ink < 1.0 && self.pen.background != sent.background {
             suited.background = color(Layer::Paper, sent.background, 1.0 - ink);
         }
-        if ink > 0.0 && !self.pen.has_ink(sent.foreground) {
+        if ink > 0.0 && self.pen.foreground != sent.foreground {
             suited.foreground = color(Layer::Ink, sent.foreground, ink);
         }
         if self.tolerance.error(&suited, cell).is_finite() {

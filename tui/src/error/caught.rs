@@ -8,23 +8,26 @@ thread_local! {
     static IS_CAUGHT: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether a panic of this thread is caught, which a hook must know.
-#[must_use]
-pub fn is_caught() -> bool {
+/// Whether a panic of this thread is caught.
+fn is_caught() -> bool {
     IS_CAUGHT.get()
+}
+
+/// From now on `act` is called before a panic is told of. Of one that is caught no one is told.
+pub fn before_message(act: impl Fn() + Send + Sync + 'static) {
+    let print = panic::take_hook();
+    panic::set_hook(Box::new(move |panic| {
+        if !is_caught() {
+            act();
+            print(panic);
+        }
+    }));
 }
 
 /// What `run` returns; `None` if it panics, which is not reported.
 pub fn catch<T>(run: impl FnOnce() -> T) -> Option<T> {
     static HOOK: Once = Once::new();
-    HOOK.call_once(|| {
-        let print = panic::take_hook();
-        panic::set_hook(Box::new(move |panic| {
-            if !is_caught() {
-                print(panic);
-            }
-        }));
-    });
+    HOOK.call_once(|| before_message(|| {}));
     IS_CAUGHT.set(true);
     let returned = catch_unwind(AssertUnwindSafe(run));
     IS_CAUGHT.set(false);

@@ -3,7 +3,7 @@
 use super::arrays::Answers;
 use crate::cases::{bytes_of_row, header};
 use crate::error::Error;
-use spherule_kernel::{Ray, Sphere};
+use spherule_referee::case::Case;
 use spherule_referee::failure::Failure;
 use spherule_referee::judge::Judge;
 use spherule_referee::rules::Rules;
@@ -11,6 +11,7 @@ use spherule_referee::shrink::{Candidate, shrink};
 use spherule_referee::verdict::Kind;
 use std::fs;
 use std::io;
+use std::ops::Range;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
@@ -47,12 +48,11 @@ fn failures(
     candidates: &[Candidate],
     rules: Rules,
 ) -> Result<Vec<Option<Failure>>, Error> {
-    let alone: Vec<(Ray, Sphere)> = candidates
-        .iter()
-        .filter_map(
-            |(ray, spheres)| if let [sphere] = spheres[..] { Some((*ray, sphere)) } else { None },
-        )
-        .collect();
+    let alone = |(ray, spheres): &Candidate| match spheres[..] {
+        [sphere] => Some(Case { ray: *ray, sphere }),
+        _ => None,
+    };
+    let alone: Vec<Case> = candidates.iter().filter_map(alone).collect();
     if alone.is_empty() {
         return Ok(Vec::new());
     }
@@ -60,19 +60,13 @@ fn failures(
     let folder = tempfile::tempdir().map_err(failed)?;
     let [spheres, rays, t] = ["S.npy", "R.npy", "T.npy"].map(|name| folder.path().join(name));
     let rows = alone.len();
-    let write = |path: &Path, width: usize, row: &dyn Fn(&(Ray, Sphere)) -> Vec<u8>| {
-        let mut bytes = header("<f4", &format!("({rows}, {width})"));
-        alone.iter().for_each(|case| bytes.extend(row(case)));
+    let write = |path: &Path, columns: Range<usize>| {
+        let mut bytes = header("<f4", &format!("({rows}, {})", columns.len()));
+        alone.iter().for_each(|case| bytes.extend(bytes_of_row(&case.numbers()[columns.clone()])));
         fs::write(path, bytes).map_err(failed)
     };
-    write(&spheres, 4, &|(_, sphere)| {
-        let [x, y, z] = sphere.center.to_array();
-        bytes_of_row(&[x, y, z, sphere.radius])
-    })?;
-    write(&rays, 8, &|(ray, _)| {
-        let ([x, y, z], [dx, dy, dz]) = (ray.origin.to_array(), ray.direction.to_array());
-        bytes_of_row(&[x, y, z, dx, dy, dz, ray.t_min, ray.t_max])
-    })?;
+    write(&spheres, 8..12)?;
+    write(&rays, 0..8)?;
     ask(command, [&spheres, &rays, &t])?;
     let mut answers = Answers::open(&t, None)?;
     if answers.rows() != rows as u64 {
@@ -80,9 +74,9 @@ fn failures(
         return Err(Error::Running(what));
     }
     let answers = answers.read(0, rows, None)?;
-    let judged = |((ray, sphere), answer): (&(Ray, Sphere), _)| {
+    let judged = |(case, answer): (&Case, _)| {
         let mut judge = Judge::new(rules, false);
-        judge.pairs(&[*ray], &[*sphere], &[answer], &[]);
+        judge.pairs(&[case.ray], &[case.sphere], &[answer], &[]);
         Kind::ALL.into_iter().find_map(|kind| judge.worst(kind).cloned())
     };
     Ok(alone.iter().zip(answers).map(judged).collect())

@@ -31,15 +31,16 @@ impl Report<'_> {
             text.push('\n');
             let _ = write_chart(self.judge, &mut text);
         }
+        let row_of =
+            |failure: &Failure| failure.row.map_or(String::new(), |row| format!(", row {row}"));
         for kind in Kind::ALL {
-            let worst = self.judge.worst(kind).into_iter();
-            for failure in worst {
-                let row = failure.row.map_or_else(String::new, |row| format!(", row {row}"));
-                let _ = write!(text, "\nworst{row}: {}\n{}", sentence(failure), python(failure));
+            if let Some(failure) = self.judge.worst(kind) {
+                let (row, what) = (row_of(failure), sentence(failure));
+                let _ = write!(text, "\nworst{row}: {what}\n{}", python(failure));
             }
             if let Some(failure) = self.smallest(kind) {
-                let row = failure.row.map_or_else(String::new, |row| format!(", row {row}"));
-                let _ = write!(text, "\nsmallest{row}: {}\n", sentence(failure));
+                let (row, what) = (row_of(failure), sentence(failure));
+                let _ = write!(text, "\nsmallest{row}: {what}\n");
                 let _ = write!(text, "{}\n{}\n{}", c(failure), python(failure), rust(failure));
             }
         }

@@ -111,44 +111,34 @@ impl Chart {
     /// column, else one a row: the glyph of the place nearest to the middle.
     fn curve(&self, canvas: &mut Canvas, role: Role, length: f32, at: impl Fn(f32) -> [f32; 2]) {
         let count = (STEPS_A_CELL * length).round().clamp(1.0, 1e5);
-        let mut best: Option<Best> = None;
-        for step in 0..=count as u32 {
+        let place = |step: u32| {
             let [column, row] = at(step as f32 / count);
             let [next_column, next_row] = at((step as f32 + 0.5) / count);
             let glyph = stroke([next_column - column, next_row - row], row - row.floor());
-            let cell = [column, row].map(|x| x.floor() as i32);
             let along = usize::from(!is_flat(glyph));
             let off = ([column, row][along].fract().abs() - 0.5).abs();
-            match &mut best {
-                Some(Best { of, along: same, least, kept, .. })
-                    if of[along] == cell[along] && *same == along =>
-                {
-                    if off < *least {
-                        (*of, *least, *kept) = (cell, off, glyph);
-                    }
-                }
-                _ => {
-                    let next = Best { of: cell, along, least: off, kept: glyph };
-                    if let Some(done) = best.replace(next) {
-                        self.put(canvas, done.of[0], done.of[1], done.kept, role);
-                    }
-                }
+            Place { cell: [column, row].map(|x| x.floor() as i32), along, off, glyph }
+        };
+        let places: Vec<_> = (0..=count as u32).map(place).collect();
+        // The same column, or the same row.
+        let line = |place: &Place| (place.along, place.cell[place.along]);
+        for same in places.chunk_by(|a, b| line(a) == line(b)) {
+            let nearest = same.iter().min_by(|a, b| a.off.total_cmp(&b.off));
+            if let Some(&Place { cell: [column, row], glyph, .. }) = nearest {
+                self.put(canvas, column, row, glyph, role);
             }
-        }
-        if let Some(done) = best {
-            self.put(canvas, done.of[0], done.of[1], done.kept, role);
         }
     }
 }
 
-/// The place of a line that is nearest to the middle of its column or its row.
-struct Best {
-    of: [i32; 2],
-    /// 0 in a column, 1 in a row.
+/// A place of a line.
+struct Place {
+    cell: [i32; 2],
+    /// 0 if it goes from column to column, 1 if from row to row.
     along: usize,
-    /// How far this place is from the middle.
-    least: f32,
-    kept: char,
+    /// How far the place is from the middle of its column or its row.
+    off: f32,
+    glyph: char,
 }
 
 /// Whether a line with this glyph goes from column to column.
@@ -187,9 +177,7 @@ mod tests {
     fn drawn(draw: impl Fn(&Chart, &mut Canvas)) -> Vec<String> {
         let mut canvas = Canvas::new(20, 10, Style::PLAIN);
         draw(&Chart::new((0, 0), (20, 10), [-5.0, 5.0], [-5.0, 5.0]), &mut canvas);
-        let cells = canvas.into_cells();
-        let row = |row| cells.row(row).iter().map(|cell| cell.glyph).collect();
-        (0..10).map(row).collect()
+        canvas.into_cells().lines()
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! A few spheres before a camera of few pixels: the picture that the stations of both orders make.
 
+use super::canvas::letter;
+use super::pixels::Pixel;
 use crate::structure::object_order::{Counts, ObjectOrder, Raster};
 use crate::structure::screen::Screen;
 use crate::structure::search::Tracing;
@@ -50,10 +52,6 @@ impl Few {
         Self { list, names, camera, width, height }
     }
 
-    pub(super) fn count(&self) -> usize {
-        self.names.len()
-    }
-
     pub(super) fn pixels(&self) -> usize {
         (self.width * self.height) as usize
     }
@@ -74,6 +72,19 @@ impl Few {
         (pixel as u32 % self.width, pixel as u32 / self.width)
     }
 
+    /// The pixel in a column and a row.
+    pub(super) fn pixel(&self, ix: u32, iy: u32) -> usize {
+        (iy * self.width + ix) as usize
+    }
+
+    /// What a pixel of a picture shows whose first pixels have these `hits`: the letter of a sphere.
+    pub(super) fn seen(&self, hits: &[Option<Hit>], ix: u32, iy: u32) -> Pixel {
+        match hits.get(self.pixel(ix, iy)) {
+            Some(hit) => Pixel::of_sphere(self.shown(*hit), letter),
+            None => Pixel::WAITING,
+        }
+    }
+
     /// The sphere that a pixel shows.
     pub(super) fn shown(&self, hit: Option<Hit>) -> Option<usize> {
         hit.map(|hit| self.name(hit.sphere as usize))
@@ -91,7 +102,7 @@ impl Few {
     /// Object order: the hits after the first spheres of the list, and what these spheres took.
     pub(super) fn object_order(&self, spheres: usize) -> (Vec<Option<Hit>>, Counts) {
         let list: SphereList = self.list.spheres().iter().take(spheres).collect();
-        let (across, down) = Camera::tile::<[f32; 16]>();
+        let (across, _) = Camera::tile::<[f32; 16]>();
         let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(self.width, self.height).collect();
         let rays: Vec<RayPacket> = corners
             .iter()
@@ -108,8 +119,8 @@ impl Few {
         for (&(left, top), packet) in corners.iter().zip(&packets) {
             for (lane, hit) in (0..).zip(packet.hits()) {
                 let (ix, iy) = (left + lane % across, top + lane / across);
-                if lane < across * down && ix < self.width && iy < self.height {
-                    hits[(iy * self.width + ix) as usize] = hit;
+                if ix < self.width && iy < self.height {
+                    hits[self.pixel(ix, iy)] = hit;
                 }
             }
         }
@@ -127,9 +138,9 @@ mod tests {
             for size in [(24, 12), (7, 5)] {
                 let few = Few::new(size, reversed);
                 let (image, tests) = few.image_order(few.pixels());
-                let (object, counts) = few.object_order(few.count());
+                let (object, counts) = few.object_order(COUNT);
                 assert_eq!(image, object);
-                assert_eq!(tests, (few.pixels() * few.count()) as u64);
+                assert_eq!(tests, (few.pixels() * COUNT) as u64);
                 assert!(counts.tests > 0 && counts.writes.stored >= counts.writes.overwritten);
             }
         }

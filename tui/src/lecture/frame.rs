@@ -115,10 +115,7 @@ mod tests {
     #[test]
     fn what_is_too_small_says_so() {
         let first = STATIONS[0].first();
-        let text = |size| -> String {
-            let page = page(0, first, false, size, Style::PLAIN);
-            page.cells().iter().map(|cell| cell.glyph).collect()
-        };
+        let text = |size| page(0, first, false, size, Style::PLAIN).lines().concat();
         assert!(!text(LEAST).contains("needs"));
         assert!(text((79, 24)).contains("needs 80x24, has 79x24"));
         assert!(text((30, 3)).ends_with("needs 80x24, has 30x3         "));

@@ -8,18 +8,28 @@ use super::station::{Numbers, Station, Turn, decimals};
 use super::stations::{STATIONS, station};
 use crate::style::{ColorDepth, Style};
 use spherule_kernel::{
-    Exact, Fast, Geometric, Intersect, Ray, Sphere, SphereList, Tier, Vec3, roots,
+    Accuracy, Exact, Fast, Geometric, Intersect, Ray, Sphere, SphereList, Tier, Vec3, roots,
 };
 use std::collections::HashSet;
 
 const TURNS: [Turn; 4] = [Turn::Left, Turn::Right, Turn::Up, Turn::Down];
 
+/// Arrows, and those that lead back.
+pub(super) const BACK: [(Turn, Turn); 4] = [
+    (Turn::Left, Turn::Right),
+    (Turn::Right, Turn::Left),
+    (Turn::Up, Turn::Down),
+    (Turn::Down, Turn::Up),
+];
+
+fn named(name: &str) -> &'static Station {
+    &STATIONS[station(name).expect("a station")]
+}
+
 fn text(station: &Station, numbers: Numbers) -> String {
     let mut canvas = Canvas::new(LEAST.0 - 2, LEAST.1 - 6, Style::PLAIN);
     station.show(numbers, &mut canvas);
-    let cells = canvas.into_cells();
-    let row = |row| cells.row(row).iter().map(|cell| cell.glyph).collect::<String>();
-    (0..cells.rows()).map(row).collect::<Vec<_>>().join("\n")
+    canvas.into_cells().lines().join("\n")
 }
 
 #[test]
@@ -60,19 +70,11 @@ fn every_arrow_changes_what_is_shown() {
     for station in &STATIONS {
         let first = text(station, station.first());
         assert_eq!(first, text(station, station.first()), "{}", station.name);
-        for turn in TURNS {
+        for (turn, back) in BACK {
             // Some arrows have nowhere to go at first.
-            let mut numbers = station.first();
-            let opposite = match turn {
-                Turn::Left => Turn::Right,
-                Turn::Right => Turn::Left,
-                Turn::Up => Turn::Down,
-                Turn::Down => Turn::Up,
-            };
-            numbers = station.turned(numbers, opposite);
-            let before = text(station, numbers);
-            numbers = station.turned(numbers, turn);
-            assert_ne!(before, text(station, numbers), "{} {turn:?}", station.name);
+            let numbers = station.turned(station.first(), back);
+            let after = station.turned(numbers, turn);
+            assert_ne!(text(station, numbers), text(station, after), "{} {turn:?}", station.name);
         }
     }
 }
@@ -93,7 +95,7 @@ fn arrows_held_down_end_somewhere() {
 
 #[test]
 fn a_row_up_or_down_stays_in_its_column() {
-    let station = &STATIONS[station("image-order").expect("a station")];
+    let station = named("image-order");
     for turn in [Turn::Up, Turn::Down] {
         let held = (0..50).fold(station.first(), |numbers, _| station.turned(numbers, turn));
         assert_eq!((held[0] - station.first()[0]) % 20, 0, "{turn:?}: {held:?}");
@@ -109,7 +111,7 @@ fn what_is_rounded_to_zero_has_no_sign() {
 
 /// What is shown as arrows are held down, each so many times.
 fn many(name: &str, held: &[(Turn, usize)]) -> Vec<String> {
-    let station = STATIONS.iter().find(|station| station.name == name).expect(name);
+    let station = named(name);
     let mut numbers = station.first();
     let mut texts = vec![text(station, numbers)];
     for &(turn, times) in held {
@@ -159,42 +161,47 @@ fn shown(text: &str) -> (Ray, Sphere) {
     (ray, Sphere { center: Vec3::ZERO, radius })
 }
 
-#[test]
-fn the_algebraic_form_shows_the_kernels_numbers() {
+fn shown_roots(text: &str) -> Option<[f32; 2]> {
+    Some([number(text, "t1 = ")?, number(text, "t2 = ")?])
+}
+
+/// Asserts that a form shows the roots of a tier, whether there are any or not; `check` gets each text with its roots.
+fn shows_the_roots_of(tier: impl Accuracy, name: &str, check: impl Fn(&str, Option<[f32; 2]>)) {
     let mut seen = [0; 2];
-    for text in many("algebraic", &AROUND) {
+    for text in many(name, &AROUND) {
         let (ray, sphere) = shown(&text);
-        let found = number(&text, "t1 = ").zip(number(&text, "t2 = "));
-        assert_eq!(found, roots(Fast, &ray, &sphere).map(|[near, far]| (near, far)), "{text}");
+        let found = shown_roots(&text);
+        assert_eq!(found, roots(tier, &ray, &sphere), "{text}");
         seen[usize::from(found.is_some())] += 1;
-        // The parts are those of the formula: they lead to the same bits.
-        let [dd, dp, c] =
-            ["d.d = ", "d.p = ", "p.p - r^2 = "].map(|name| number(&text, name).expect(name));
-        assert_eq!(number(&text, "  = "), Some(dp * dp - dd * c), "{text}");
-        if let Some((near, far)) = found {
-            let root = (dp * dp - dd * c).sqrt();
-            assert_eq!([near, far], [(-dp - root) * (1.0 / dd), (-dp + root) * (1.0 / dd)]);
-        }
+        check(&text, found);
     }
     assert!(seen.iter().all(|&count| count > 20), "{seen:?}");
 }
 
 #[test]
-fn the_geometric_form_shows_the_kernels_numbers() {
-    let mut seen = [0; 2];
-    for text in many("geometric", &AROUND) {
-        let (ray, sphere) = shown(&text);
-        let found = number(&text, "t1 = ").zip(number(&text, "t2 = "));
-        assert_eq!(found, roots(Geometric, &ray, &sphere).map(|[near, far]| (near, far)), "{text}");
-        seen[usize::from(found.is_some())] += 1;
-        let middle = number(&text, "t_m = -p.v = ").expect("t_m");
-        let length = number(&text, "|d| = ").expect("|d|");
-        if let Some((near, far)) = found {
-            let half = number(&text, "dt = sqrt(r^2 - l^2) = ").expect("dt");
-            assert_eq!([near, far], [middle - half, middle + half].map(|t| t * (1.0 / length)));
+fn the_algebraic_form_shows_the_kernels_numbers() {
+    shows_the_roots_of(Fast, "algebraic", |text, found| {
+        // The parts are those of the formula: they lead to the same bits.
+        let [dd, dp, c] =
+            ["d.d = ", "d.p = ", "p.p - r^2 = "].map(|name| number(text, name).expect(name));
+        assert_eq!(number(text, "  = "), Some(dp * dp - dd * c), "{text}");
+        if let Some(both) = found {
+            let root = (dp * dp - dd * c).sqrt();
+            assert_eq!(both, [(-dp - root) * (1.0 / dd), (-dp + root) * (1.0 / dd)]);
         }
-    }
-    assert!(seen.iter().all(|&count| count > 20), "{seen:?}");
+    });
+}
+
+#[test]
+fn the_geometric_form_shows_the_kernels_numbers() {
+    shows_the_roots_of(Geometric, "geometric", |text, found| {
+        let middle = number(text, "t_m = -p.v = ").expect("t_m");
+        let length = number(text, "|d| = ").expect("|d|");
+        if let Some(both) = found {
+            let half = number(text, "dt = sqrt(r^2 - l^2) = ").expect("dt");
+            assert_eq!(both, [middle - half, middle + half].map(|t| t * (1.0 / length)));
+        }
+    });
 }
 
 /// Arrows that lead either end past both roots.
@@ -209,8 +216,7 @@ fn the_interval_shows_the_kernels_answer() {
         let ray = Ray { t_min, t_max, ..Ray::new(flat(&text, "p = "), flat(&text, "d = ")) };
         let radius = number(&text, "r = ").expect("a radius");
         let sphere = Sphere { center: flat(&text, "c = "), radius };
-        let both = number(&text, "t1 = ").zip(number(&text, "t2 = "));
-        assert_eq!(both, roots(Exact, &ray, &sphere).map(|[near, far]| (near, far)), "{text}");
+        assert_eq!(shown_roots(&text), roots(Exact, &ray, &sphere), "{text}");
         let answer = number(&text, "= a hit at t = ");
         let expected = SphereList::from([sphere]).closest_hit(Exact, &ray).map(|hit| hit.t);
         assert_eq!(answer, expected, "{text}");
@@ -223,7 +229,7 @@ fn the_interval_shows_the_kernels_answer() {
 
 #[test]
 fn a_power_of_two_keeps_every_bit_of_the_picture() {
-    let station = &STATIONS[station("scaling").expect("a station")];
+    let station = named("scaling");
     for turn in [Turn::Left, Turn::Right] {
         let mut numbers = station.first();
         for _ in 0..30 {
@@ -236,7 +242,7 @@ fn a_power_of_two_keeps_every_bit_of_the_picture() {
 
 #[test]
 fn the_tiers_are_wrong_where_they_are() {
-    let station = &STATIONS[station("precision").expect("a station")];
+    let station = named("precision");
     let text = text(station, station.first());
     let table = &text[text.find("decided wrongly:").expect("the table")..];
     let wrong = Tier::ALL.map(|tier| {

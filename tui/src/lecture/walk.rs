@@ -153,6 +153,7 @@ fn of_key(key: KeyCode) -> Option<Input> {
 mod tests {
     use super::*;
     use crate::lecture::stations::station;
+    use crate::lecture::tests::BACK;
     use crossterm::event::{KeyEvent, KeyModifiers};
 
     #[test]
@@ -168,15 +169,8 @@ mod tests {
 
     #[test]
     fn an_arrow_leads_back_at_once_from_where_another_was_held_down() {
-        let turns = [
-            (Turn::Right, Turn::Left),
-            (Turn::Left, Turn::Right),
-            (Turn::Up, Turn::Down),
-            (Turn::Down, Turn::Up),
-        ];
         let stations = ["illumination", "first-picture"];
-        for (name, (held, back)) in stations.iter().flat_map(|name| turns.map(|turn| (name, turn)))
-        {
+        for (name, (held, back)) in stations.iter().flat_map(|name| BACK.map(|turn| (name, turn))) {
             let index = station(name).expect("a station");
             let mut walk = Walk::new(index);
             for _ in 0..100 {

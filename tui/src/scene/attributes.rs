@@ -63,16 +63,15 @@ pub struct Own {
     pub radii: bool,
 }
 
-impl Attributes {
-    /// Whether there are no attributes.
+impl NumberColumn {
+    /// A column without numbers yet.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.elements.is_none()
-            && self.residue_numbers.is_none()
-            && self.names.iter().all(Option::is_none)
-            && self.columns.is_empty()
+    pub fn named(name: impl Into<Box<str>>) -> Self {
+        Self { name: name.into(), values: Vec::new() }
     }
+}
 
+impl Attributes {
     /// The names of one kind; `None` if the file has none.
     #[must_use]
     pub fn names(&self, naming: Naming) -> Option<&Names> {
@@ -134,7 +133,7 @@ mod tests {
     #[test]
     fn labels_say_what_a_sphere_is() {
         let mut attributes = Attributes::default();
-        assert!(attributes.is_empty() && attributes.label(0).is_none());
+        assert_eq!(attributes.label(0), None);
         attributes.set_names(Naming::Type, names(&["Xx", "C"]));
         attributes.elements = Some(vec![0, 6]);
         let labels = [attributes.label(0), attributes.label(1), attributes.label(2)];

@@ -25,12 +25,12 @@ pub const BUILTINS: [Builtin; 6] = [
     Builtin {
         name: "marbles",
         description: "lit spheres with shadows on a huge ground sphere",
-        scene: marbles,
+        scene: || of_toml(include_str!("../../scenes/marbles.toml")),
     },
     Builtin {
         name: "unit",
         description: "the unit sphere without a light: white where a ray hits",
-        scene: unit,
+        scene: || of_toml(include_str!("../../scenes/unit.toml")),
     },
     Builtin {
         name: "flake",
@@ -40,12 +40,12 @@ pub const BUILTINS: [Builtin; 6] = [
     Builtin {
         name: "edge",
         description: "far, tiny, huge and grazing spheres, where single precision ends",
-        scene: edge,
+        scene: || of_toml(include_str!("../../scenes/edge.toml")),
     },
     Builtin {
         name: "far",
         description: "spheres and their shadows from 10^6 and 10^7 diameters, where t is as coarse as the smallest",
-        scene: far,
+        scene: || of_toml(include_str!("../../scenes/far.toml")),
     },
     Builtin {
         name: "caffeine",
@@ -66,28 +66,9 @@ pub fn shipped_file(name: &str) -> Option<Scene> {
     (name == "caffeine.xyz").then(caffeine)
 }
 
-fn unit() -> Scene {
-    of_toml(include_str!("../../scenes/unit.toml"))
-}
-
-fn marbles() -> Scene {
-    of_toml(include_str!("../../scenes/marbles.toml"))
-}
-
-fn edge() -> Scene {
-    of_toml(include_str!("../../scenes/edge.toml"))
-}
-
-fn far() -> Scene {
-    of_toml(include_str!("../../scenes/far.toml"))
-}
-
 fn caffeine() -> Scene {
-    expect(read(
-        Box::new(include_bytes!("../../scenes/caffeine.xyz").as_slice()),
-        "caffeine.xyz",
-        None,
-    ))
+    let text = include_bytes!("../../scenes/caffeine.xyz").as_slice();
+    expect(read(Box::new(text), "caffeine.xyz", None))
 }
 
 fn of_toml(text: &str) -> Scene {
@@ -168,7 +149,7 @@ mod tests {
 
     #[test]
     fn marbles_touch_the_ground() {
-        let spheres: Vec<_> = marbles().spheres().iter().collect();
+        let spheres: Vec<_> = builtin("marbles").expect("a scene").spheres().iter().collect();
         let (ground, marbles) = spheres.split_first().expect("the ground");
         assert_eq!(marbles.len(), 9);
         for marble in marbles {

@@ -3,6 +3,7 @@
 mod context;
 mod gro;
 mod lammps;
+mod locations;
 mod mercury;
 mod mmcif;
 mod mmcif_columns;
@@ -11,6 +12,7 @@ mod pdb;
 mod ply;
 pub(super) mod recognise;
 pub(crate) mod replaced;
+mod stated;
 mod table;
 mod urdf;
 mod words;
@@ -23,7 +25,6 @@ use super::input::Input;
 use super::read_error::ReadError;
 use super::{Scene, toml};
 use clap::ValueEnum;
-use context::LONGEST_TEXT;
 
 /// The formats that scenes are read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -90,7 +91,7 @@ impl Format {
             Self::Ply => ply::read(input, &mut context.notes).map(Some),
             Self::Npy => npy_points::read(input, &mut context.notes).map(Some),
             Self::Urdf => urdf::read(input, &mut context.notes).map(Some),
-            Self::Toml => of_toml(input).map(Some),
+            Self::Toml => toml::read(&input.text()?, input.source()).map(Some),
         }?;
         // Frames are seen from one view, so all have the origin of the first, and particles without a radius keep their size.
         if let Some(scene) = &scene {
@@ -122,16 +123,6 @@ impl Format {
             }
         }
     }
-}
-
-fn of_toml(input: &mut Input) -> Result<Scene, ReadError> {
-    let (bytes, source) = (input.rest(LONGEST_TEXT)?, input.source());
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let line = bytes[..error.valid_up_to()].split(|&byte| byte == b'\n').count();
-        ReadError { line: Some(line), ..ReadError::whole(source, "not valid UTF-8") }
-    })?;
-    toml::read(text, source)
 }
 
 #[cfg(test)]

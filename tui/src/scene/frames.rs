@@ -165,18 +165,14 @@ impl Frames {
         let (before, fixed) = (self.input.place(), self.context.fixed);
         let result = read(&mut self.input, &mut self.context);
         // A line without an end may still go on.
-        let is_partial = match &result {
-            Ok(_) => !self.input.is_terminated(),
-            Err(error) => error.ends_early || !self.input.is_terminated(),
-        };
-        if self.follows && is_partial {
+        let ends_early = result.as_ref().is_err_and(|error| error.ends_early);
+        if self.follows && (ends_early || !self.input.is_terminated()) {
             self.input.go_anew(before)?;
             // The end of the last number may be missing.
             self.context.fixed = fixed;
             return Ok(None);
         }
-        let result = result?;
-        Ok(Some(result))
+        result.map(Some)
     }
 
     /// Whether the file still has what has been passed. One that is copied over again is shorter for a while.
@@ -202,81 +198,6 @@ impl Frames {
             let place = self.input.place();
             self.places.push(place);
             self.tail = if self.follows { self.input.bytes_before(place) } else { None };
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::fs::{File, rename, write};
-    use std::io::Write;
-    use std::path::{Path, PathBuf};
-
-    fn path(name: &str) -> PathBuf {
-        std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()))
-    }
-
-    fn text(count: usize) -> String {
-        (0..count).map(|index| format!("1\n\nC {index} 0 0\n")).collect()
-    }
-
-    fn followed(path: &Path) -> Frames {
-        let file = File::open(path).expect("a file");
-        let input = Input::of_file(file, path.to_owned(), "file").expect("an input");
-        Frames::new(input, Format::Xyz, Context::default(), true)
-    }
-
-    /// Who copies a file over another cuts it, and it grows again; others put a new one in its place.
-    #[test]
-    fn a_file_that_is_written_anew_goes_on_where_it_was() {
-        let (path, new) = (path("anew.xyz"), path("anew.new"));
-        let copy = |text: String| write(&path, text).expect("a file");
-        let replace = |text: String| {
-            write(&new, text).expect("a file");
-            rename(&new, &path).expect("the file");
-        };
-        copy(text(3));
-        let mut frames = followed(&path);
-        let mut x = |index| {
-            let scene = frames.read(index).unwrap_or_else(|error| panic!("{error}"));
-            scene.map(|scene| scene.spheres().get(0).expect("an atom").center.x)
-        };
-        // All three are in the buffer then.
-        assert_eq!(x(0), Some(0.0));
-        for count in [0, 1] {
-            copy(text(count));
-            assert_eq!(x(1), None, "{count}");
-        }
-        copy(text(3));
-        assert_eq!([x(1), x(2), x(3)], [Some(1.0), Some(2.0), None]);
-        for count in [0, 2, 3] {
-            copy(text(count));
-            assert_eq!(x(3), None, "{count}");
-        }
-        copy(text(4));
-        assert_eq!([x(3), x(4)], [Some(3.0), None]);
-        replace(text(2));
-        assert_eq!([x(4), x(0)], [None, None]);
-        replace(text(5));
-        assert_eq!([x(4), x(0), x(5)], [Some(4.0), Some(0.0), None]);
-        replace(text(6).replace('C', "O"));
-        let error = frames.read(5).expect_err("other contents");
-        assert_eq!(error.to_string(), "file: the file was written anew, with other contents");
-    }
-
-    #[test]
-    fn a_file_that_was_empty_may_be_compressed() {
-        let path = path("empty.xyz.gz");
-        write(&path, "").expect("a file");
-        let mut frames = followed(&path);
-        assert!(frames.read(0).expect("no error").is_none());
-        let mut gz = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
-        gz.write_all(text(50).as_bytes()).expect("room in memory");
-        write(&path, gz.finish().expect("room in memory")).expect("a file");
-        for index in 0..=50 {
-            let scene = frames.read(index).unwrap_or_else(|error| panic!("{error}"));
-            assert_eq!(scene.is_some(), index < 50, "{index}");
         }
     }
 }

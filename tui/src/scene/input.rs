@@ -1,13 +1,14 @@
 //! The bytes of a scene, from a file or a pipe, as they are or decompressed: line by line, or as they come.
 //!
 //! Memory does not grow with the input: a line is borrowed from the buffer, and none may be longer than
-//! [`LONGEST_LINE`]. Places are remembered, so that a frame can be read again.
+//! [`line::LONGEST_LINE`]. Places are remembered, so that a frame can be read again.
 
 mod bytes;
 mod compressed;
 mod cut;
 mod head;
 mod line;
+mod lines;
 mod place;
 mod until_end;
 
@@ -15,6 +16,8 @@ use super::read_error::ReadError;
 use crate::error::cause;
 use crate::progress::Progress;
 use compressed::decompressed;
+#[cfg(test)]
+pub(super) use line::LONGEST_LINE;
 pub(super) use line::Line;
 pub(super) use place::Place;
 use place::{open_at, uncompressed};
@@ -23,9 +26,6 @@ use std::io::{self, Read};
 use std::path::PathBuf;
 use std::time::Duration;
 use until_end::UntilEnd;
-
-/// The longest line, in bytes: a million columns have room.
-pub(super) const LONGEST_LINE: usize = 16 << 20;
 
 /// What is read at once, at least.
 const BLOCK: usize = 256 << 10;
@@ -71,8 +71,7 @@ impl Input {
     /// # Errors
     /// [`ReadError`] if it cannot be read.
     pub(super) fn of_file(file: File, path: PathBuf, source: &str) -> Result<Self, ReadError> {
-        let plain = uncompressed(&file);
-        let plain = plain.map_err(|error| ReadError::whole(source, cause(&error)))?;
+        let plain = uncompressed(&file).map_err(ReadError::io(source))?;
         // More may be written behind its end.
         let mut input = Self::reading(Box::new(file), source)?;
         (input.file, input.plain) = (Some(path), plain);
@@ -88,10 +87,8 @@ impl Input {
     }
 
     fn reading(reader: Box<dyn Read + Send>, source: &str) -> Result<Self, ReadError> {
-        let reader = decompressed(reader);
-        let reader = reader.map_err(|error| ReadError::whole(source, cause(&error)))?;
         Ok(Self {
-            reader,
+            reader: decompressed(reader).map_err(ReadError::io(source))?,
             file: None,
             source: source.into(),
             buffer: Vec::new(),
@@ -173,56 +170,6 @@ impl Input {
         if error.kind() == io::ErrorKind::UnexpectedEof { wrong.of_end() } else { wrong }
     }
 
-    /// The next line; `None` after the last.
-    ///
-    /// # Errors
-    /// [`ReadError`] if reading fails, or the line is longer than [`LONGEST_LINE`].
-    pub(super) fn line(&mut self) -> Result<Option<Line<'_>>, ReadError> {
-        let mut searched = 0;
-        let length = loop {
-            let rest = &self.buffer[self.start + searched..self.end];
-            if let Some(length) = memchr::memchr(b'\n', rest) {
-                break searched + length;
-            }
-            searched += rest.len();
-            if searched > LONGEST_LINE {
-                let what = format!("a line of more than {} MiB", LONGEST_LINE >> 20);
-                return Err(ReadError::at(&self.source, self.number + 1, 1, what));
-            }
-            if !self.fill()? {
-                if searched == 0 {
-                    return Ok(None);
-                }
-                break searched;
-            }
-        };
-        self.last = self.place();
-        let end = self.start + length;
-        self.terminated = end < self.end;
-        let mut bytes = &self.buffer[self.start..end];
-        self.start = end + usize::from(self.terminated);
-        self.number += 1;
-        if let Some(without) = bytes.strip_suffix(b"\r") {
-            bytes = without;
-        }
-        if self.number == 1 {
-            bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        }
-        Ok(Some(Line { bytes, number: self.number, source: &self.source }))
-    }
-
-    /// The next line, which there must be: else the input ends before `what`.
-    ///
-    /// # Errors
-    /// As [`Self::line`], and if there is none.
-    pub(super) fn expect(&mut self, what: &str) -> Result<Line<'_>, ReadError> {
-        if self.is_over()? {
-            return Err(self.ends(format!("the file ends before {what}")));
-        }
-        let ends = ReadError::whole(&self.source, "the file ends");
-        self.line()?.ok_or(ends)
-    }
-
     /// The error that the input ends too early.
     pub(super) fn ends(&self, what: impl Into<String>) -> ReadError {
         ReadError::at(&self.source, self.number + 1, 1, what).of_end()
@@ -289,9 +236,8 @@ impl Input {
         let Some(path) = &self.file else {
             return Err(ReadError::whole(&self.source, "a pipe cannot be read again"));
         };
-        let opened = open_at(path, place.offset);
-        let opened = opened.map_err(|error| ReadError::whole(&self.source, cause(&error)));
-        (self.reader, self.plain) = opened?;
+        (self.reader, self.plain) =
+            open_at(path, place.offset).map_err(ReadError::io(&self.source))?;
         self.failure = None;
         (self.start, self.end, self.before, self.number) = (0, 0, place.offset, place.number);
         Ok(())

@@ -1,5 +1,7 @@
 //! Numbers in text, fast: most have few digits, and are exact by one division.
 
+use std::str::FromStr;
+
 /// The number that `word` is, as the standard library reads it: the nearest `f64`. `None` if it is none. An exponent may
 /// also follow a `D`, as Fortran writes double precision.
 ///
@@ -12,6 +14,17 @@ pub(super) fn number(word: &[u8]) -> Option<f64> {
         Some((value, length)) if length == word.len() => Some(value),
         _ => slowly(word),
     }
+}
+
+/// As [`number`], in single precision; NaN if it is none.
+#[inline]
+pub(super) fn number_or_nan(word: &[u8]) -> f32 {
+    number(word).map_or(f32::NAN, |value| value as f32)
+}
+
+/// What the standard library reads `word` as; `None` if it is no such thing.
+pub(super) fn parsed<T: FromStr>(word: &[u8]) -> Option<T> {
+    std::str::from_utf8(word).ok()?.parse().ok()
 }
 
 /// The number with which `text` begins, up to white space or the end, and its length in bytes, if one division gives it

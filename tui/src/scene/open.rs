@@ -7,7 +7,6 @@ use super::read_error::ReadError;
 use super::reading::{Reading, first, frames, input_of};
 use super::{Scene, builtin};
 use crate::choice;
-use crate::error::cause;
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, Cursor, IsTerminal, Read};
@@ -30,7 +29,7 @@ pub enum Opened {
 pub fn open(name: impl AsRef<OsStr>, reading: &Reading) -> Result<Opened, ReadError> {
     let name = &FileName::from(name.as_ref().to_owned());
     if *name == "-" {
-        let input = standard_input().map_err(|error| ReadError::whole("-", cause(&error)))?;
+        let input = standard_input().map_err(ReadError::io("-"))?;
         return frames(Input::of_reader(input, "-")?, reading).map(Opened::File);
     }
     if let Some(scene) = builtin::builtin(name) {
@@ -47,7 +46,7 @@ pub fn open(name: impl AsRef<OsStr>, reading: &Reading) -> Result<Opened, ReadEr
                 None => Err(ReadError::whole(name, "no such file")),
             };
         }
-        Err(error) => return Err(ReadError::whole(name, cause(&error))),
+        Err(error) => return Err(ReadError::io(name)(error)),
     };
     frames(input_of(file, name)?, reading).map(Opened::File)
 }
@@ -85,7 +84,7 @@ fn built_in(scene: Scene, name: &str, reading: &Reading) -> Result<Opened, ReadE
 pub fn scene(name: &str) -> Result<Scene, ReadError> {
     match open(name, &Reading::default())? {
         Opened::Builtin(scene) => Ok(scene),
-        Opened::File(frames) => first(frames),
+        Opened::File(mut frames) => first(&mut frames),
     }
 }
 
@@ -104,28 +103,20 @@ mod tests {
     fn a_built_in_scene_has_nothing_of_a_file() {
         let columns = Some("1,2,3".to_owned());
         let topology = Some(FileName::from(OsString::from("x.gro")));
-        for name in ["marbles", "caffeine.xyz"] {
-            let refusal = |reading| open(name, &reading).expect_err("refused").to_string();
-            assert_eq!(
-                refusal(Reading { columns: columns.clone(), ..Reading::default() }),
-                format!("{name}: --columns 1,2,3: for tables; this scene is built in")
-            );
-            assert_eq!(
-                refusal(Reading { topology: topology.clone(), ..Reading::default() }),
-                format!("{name}: --topology x.gro: for .xtc; this scene is built in")
-            );
-            let of_file =
-                |option: &str| format!("{name}: {option}: for files; this scene is built in");
-            let format = Some(Format::LammpsDump);
-            assert_eq!(
-                refusal(Reading { format, ..Reading::default() }),
-                of_file("--format lammps-dump")
-            );
-            let strict = Reading { strict: true, ..Reading::default() };
-            assert_eq!(refusal(strict), of_file("--strict"));
-            let follow = Reading { follow: true, ..Reading::default() };
-            assert_eq!(refusal(follow), of_file("--follow"));
-            open(name, &Reading::default()).expect("it is built in");
+        let format = Some(Format::LammpsDump);
+        let none = Reading::default;
+        for (reading, what) in [
+            (Reading { columns, ..none() }, "--columns 1,2,3: for tables"),
+            (Reading { topology, ..none() }, "--topology x.gro: for .xtc"),
+            (Reading { format, ..none() }, "--format lammps-dump: for files"),
+            (Reading { strict: true, ..none() }, "--strict: for files"),
+            (Reading { follow: true, ..none() }, "--follow: for files"),
+        ] {
+            for name in ["marbles", "caffeine.xyz"] {
+                let refusal = open(name, &reading).expect_err("refused").to_string();
+                assert_eq!(refusal, format!("{name}: {what}; this scene is built in"));
+                open(name, &none()).expect("it is built in");
+            }
         }
     }
 }

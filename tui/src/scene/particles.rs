@@ -3,7 +3,7 @@
 //! The element of particles is looked up once per name, not once per particle. A particle with neither an element nor a
 //! radius of its own is as large as particles are apart, or, beside elements, as a small atom, and as large in all frames.
 
-use super::attributes::{Attributes, Names, NamesBuilder, Naming, NumberColumn};
+use super::attributes::{Attributes, Names, NamesBuilder, Naming, NumberColumn, Own};
 use super::elements::of_number;
 use super::fixed::Fixed;
 use super::notes::Notes;
@@ -11,6 +11,7 @@ use super::origin::{FIRST, origin};
 use super::read_error::ReadError;
 use super::spacing::half_spacing;
 use super::symbols::{Symbols, resolved};
+use super::type_colors::type_color;
 use super::{Lighting, Scene};
 use crate::color::Srgb;
 use glam::DVec3;
@@ -27,18 +28,6 @@ const UNKNOWN_RADIUS: f32 = 1.2;
 
 /// The radius of particles that nothing is apart from.
 const LONE_RADIUS: f32 = 1.0;
-
-/// Colours that the colour-blind tell apart, for types without an element: M. Okabe, K. Ito, "Color Universal Design"
-/// (2002), without black.
-const TYPE_COLORS: [Srgb; 7] = [
-    Srgb([0x56, 0xb4, 0xe9]),
-    Srgb([0xe6, 0x9f, 0x00]),
-    Srgb([0x00, 0x9e, 0x73]),
-    Srgb([0xcc, 0x79, 0xa7]),
-    Srgb([0xf0, 0xe4, 0x42]),
-    Srgb([0xd5, 0x5e, 0x00]),
-    Srgb([0x00, 0x72, 0xb2]),
-];
 
 /// The particles of a frame. What is not empty has a value a particle.
 #[derive(Debug, Default)]
@@ -80,6 +69,25 @@ impl Particles {
             Some(origin) => self.centers.push((center - origin).as_vec3()),
             None => self.first_center(center),
         }
+    }
+
+    /// Adds the next particle, and its radius if all have one.
+    ///
+    /// # Errors
+    /// What is wrong with a number of these in single precision.
+    #[inline]
+    pub(super) fn sphere(&mut self, center: DVec3, radius: Option<f64>) -> Result<(), String> {
+        if !center.as_vec3().is_finite() {
+            return Err(format!("is at {center}: not finite in single precision"));
+        }
+        self.center(center);
+        if let Some(radius) = radius.map(|radius| radius as f32) {
+            if !(radius.is_finite() && radius >= 0.0) {
+                return Err(format!("has the radius {radius}"));
+            }
+            self.radii.push(radius);
+        }
+        Ok(())
     }
 
     #[cold]
@@ -150,104 +158,75 @@ impl Particles {
     /// [`ReadError`] if there is no particle, or one of an unknown type where `notes` are strict.
     pub(super) fn finish(mut self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
         let origin = self.settle();
-        let Self {
-            centers,
-            fixed,
-            radii,
-            mut colors,
-            kinds,
-            symbols,
-            lines,
-            names,
-            residue_numbers,
-            mut columns,
-            ..
-        } = self;
-        let count = centers.len();
-        let kinds = kinds.finish();
-        let known = kinds.as_ref().map(|kinds| resolved(kinds, symbols));
+        let (count, symbols) = (self.centers.len(), self.symbols);
+        let kinds = self.kinds.finish();
+        let known = kinds.as_ref().map_or_else(Vec::new, |kinds| resolved(kinds, symbols));
         let number_of = |index: usize| -> u8 {
-            let of = kinds.as_ref().zip(known.as_ref());
-            of.map_or(0, |(kinds, known)| known[kinds.indices()[index] as usize])
+            kinds.as_ref().map_or(0, |kinds| known[kinds.indices()[index] as usize])
         };
-        let has_elements =
-            known.as_ref().is_some_and(|known| known.iter().any(|&number| number > 0));
-        let own = super::attributes::Own { colors: !colors.is_empty(), radii: !radii.is_empty() };
-        if let (Some(kinds), Some(known)) = (&kinds, &known)
+        let has_elements = known.iter().any(|&number| number > 0);
+        let own = Own { colors: !self.colors.is_empty(), radii: !self.radii.is_empty() };
+        if let Some(kinds) = &kinds
             && symbols != Symbols::Numbers
             && !(own.colors && own.radii)
         {
-            note_unknown(kinds, known, &lines, notes, source)?;
+            note_unknown(kinds, &known, &self.lines, notes, source)?;
         }
 
-        if colors.is_empty() {
-            colors.reserve_exact(count);
-            // The colour is looked up once per kind, not once per atom.
-            let by_kind: Vec<Srgb> = match (&kinds, &known) {
-                (Some(kinds), Some(known)) => (0..kinds.table().len())
-                    .map(|kind| match of_number(known[kind].into()) {
+        if !own.colors {
+            self.colors = match &kinds {
+                None => vec![NEUTRAL; count],
+                Some(kinds) => {
+                    // The colour is looked up once per kind, not once per atom.
+                    let color = |kind: usize| match of_number(known[kind].into()) {
                         Some(element) => element.color,
                         None if symbols == Symbols::Numbers => {
                             type_color(kind, &kinds.table()[kind])
                         }
                         None => NEUTRAL,
-                    })
-                    .collect(),
-                _ => Vec::new(),
-            };
-            match &kinds {
-                Some(kinds) => {
-                    colors.extend(kinds.indices().iter().map(|&kind| by_kind[kind as usize]));
+                    };
+                    let by_kind: Vec<Srgb> = (0..known.len()).map(color).collect();
+                    kinds.indices().iter().map(|&kind| by_kind[kind as usize]).collect()
                 }
-                None => colors.resize(count, NEUTRAL),
-            }
+            };
         }
-        let told = fixed.radius.or_else(|| match has_elements {
+        let told = self.fixed.radius.or_else(|| match has_elements {
             true => Some(UNKNOWN_RADIUS),
-            false => half_spacing(&centers),
+            false => half_spacing(&self.centers),
         });
         let unstated = told.unwrap_or(LONE_RADIUS);
         let radius_of_number: Vec<Option<f32>> = (0..=u8::MAX)
             .map(|number| of_number(number.into()).map(|element| element.radius))
             .collect();
         let mut has_unstated = false;
-        let mut radius = |index: usize| match radii.get(index) {
+        let mut radius = |index: usize| match self.radii.get(index) {
             Some(radius) if !radius.is_nan() => *radius,
             _ => radius_of_number[usize::from(number_of(index))].unwrap_or_else(|| {
                 has_unstated = true;
                 unstated
             }),
         };
-        let list = centers.iter().enumerate();
+        let list = self.centers.iter().enumerate();
         let list = list.map(|(index, &center)| Sphere { center, radius: radius(index) }).collect();
 
-        columns.retain(|column| column.values.len() == count);
-        let mut attributes = Attributes { columns, own, ..Attributes::default() };
+        self.columns.retain(|column| column.values.len() == count);
+        let mut attributes = Attributes { columns: self.columns, own, ..Attributes::default() };
         attributes.elements = has_elements.then(|| (0..count).map(number_of).collect());
         attributes.residue_numbers =
-            (residue_numbers.len() == count && count > 0).then_some(residue_numbers);
-        for (naming, builder) in Naming::ALL.into_iter().zip(names) {
+            (self.residue_numbers.len() == count && count > 0).then_some(self.residue_numbers);
+        for (naming, builder) in Naming::ALL.into_iter().zip(self.names) {
             attributes.set_names(naming, builder.finish());
         }
         if attributes.names(Naming::Type).is_none() && attributes.names(Naming::Name).is_none() {
             attributes.set_names(Naming::Type, kinds);
         }
-        let mut scene = Scene::of_spheres(list, colors, attributes);
+        let mut scene = Scene::of_spheres(list, self.colors, attributes);
         scene.origin = origin;
         scene.unstated_radius = told.filter(|_| has_unstated);
         scene.background = BACKGROUND;
         scene.lighting = Lighting::Camera;
         Ok(scene)
     }
-}
-
-/// The colour of a type: by its number, so that types which come and go between frames keep theirs, else by its `place`
-/// among the types.
-fn type_color(place: usize, name: &str) -> Srgb {
-    let count = TYPE_COLORS.len();
-    let number = name.parse::<i32>().ok();
-    let number = number.map(|number| (i64::from(number) - 1).rem_euclid(count as i64) as usize);
-    TYPE_COLORS[number.unwrap_or(place % count)]
 }
 
 fn permute<T: Copy>(values: &mut Vec<T>, order: &[u32]) {

@@ -1,6 +1,7 @@
 //! Why an input is no scene.
 
-use std::fmt;
+use crate::error::cause;
+use std::{fmt, io};
 
 /// What is wrong, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,6 +32,20 @@ impl ReadError {
     #[must_use]
     pub fn at(source: &str, line: usize, column: usize, what: impl Into<String>) -> Self {
         Self { line: Some(line), column: Some(column), ..Self::whole(source, what) }
+    }
+
+    /// About a byte of a file that is all in `text`.
+    #[must_use]
+    pub fn in_text(source: &str, text: &str, byte: usize, what: impl Into<String>) -> Self {
+        let before = text.get(..byte).unwrap_or(text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|&letter| letter != '\n').count() + 1;
+        Self::at(source, line, column, what)
+    }
+
+    /// About a file that cannot be read: makes an error of the system's.
+    pub(super) fn io(source: &str) -> impl Fn(io::Error) -> Self {
+        move |error| Self::whole(source, cause(&error))
     }
 
     /// The same, of an input that ends too early.

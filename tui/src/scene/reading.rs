@@ -9,7 +9,6 @@ use super::input::Input;
 use super::notes::Notes;
 use super::read_error::ReadError;
 use crate::choice;
-use crate::error::cause;
 use clap::ValueEnum;
 use std::fs::File;
 use std::io::Read;
@@ -41,16 +40,12 @@ pub fn read(
     format: Option<Format>,
 ) -> Result<Scene, ReadError> {
     let reading = Reading { format, ..Reading::default() };
-    first(frames(Input::of_reader(reader, source)?, &reading)?)
+    first(&mut frames(Input::of_reader(reader, source)?, &reading)?)
 }
 
-pub(super) fn first(mut frames: Frames) -> Result<Scene, ReadError> {
-    let source = frames.source().to_owned();
-    frames.read(0)?.ok_or_else(|| no_particles(&source))
-}
-
-fn no_particles(source: &str) -> ReadError {
-    ReadError::whole(source, "no particles")
+/// The first frame, which there must be.
+pub(super) fn first(frames: &mut Frames) -> Result<Scene, ReadError> {
+    frames.read(0)?.ok_or_else(|| ReadError::whole(frames.source(), "no particles"))
 }
 
 pub(super) fn frames(mut input: Input, reading: &Reading) -> Result<Frames, ReadError> {
@@ -79,9 +74,9 @@ pub(super) fn frames(mut input: Input, reading: &Reading) -> Result<Frames, Read
 
 /// The file called `name`, as what the particles of a trajectory are.
 fn topology(name: &FileName, strict: bool) -> Result<Scene, ReadError> {
-    let file = File::open(name.path()).map_err(|error| ReadError::whole(name, cause(&error)))?;
+    let file = File::open(name.path()).map_err(ReadError::io(name))?;
     let mut frames = frames(input_of(file, name)?, &Reading { strict, ..Reading::default() })?;
-    let scene = frames.read(0)?.ok_or_else(|| no_particles(name))?;
+    let scene = first(&mut frames)?;
     frames.report();
     Ok(scene)
 }
@@ -139,7 +134,7 @@ fn extension(name: &str) -> Option<&str> {
 
 /// The bytes of a file that is called `name`.
 pub(super) fn input_of(file: File, name: &FileName) -> Result<Input, ReadError> {
-    let metadata = file.metadata().map_err(|error| ReadError::whole(name, cause(&error)))?;
+    let metadata = file.metadata().map_err(ReadError::io(name))?;
     if metadata.is_dir() {
         return Err(ReadError::whole(name, "is a directory"));
     }

@@ -91,35 +91,16 @@ mod tests {
 
     #[test]
     fn names_in_mixed_case_are_symbols() {
-        for (name, expected) in [
-            ("Na+", "Na"),
-            ("Cl-", "Cl"),
-            ("Fe", "Fe"),
-            ("Cu", "Cu"),
-            ("Si12", "Si"),
-            ("Ca", "Ca"),
-            ("Co2+", "Co"),
-        ] {
-            assert_eq!(symbol(name), Some(expected), "{name}");
-        }
+        let names = ["Na+", "Cl-", "Fe", "Cu", "Si12", "Ca", "Co2+"];
+        assert_eq!(names.map(symbol), ["Na", "Cl", "Fe", "Cu", "Si", "Ca", "Co"].map(Some));
     }
 
     #[test]
     fn names_in_capitals_are_those_of_molecules_of_life() {
-        for (name, expected) in [
-            ("CA", "C"),
-            ("NA", "Na"),
-            ("CD1", "C"),
-            ("NE2", "N"),
-            ("1HB2", "H"),
-            ("OW", "O"),
-            ("CAL", "Ca"),
-            // No element, so the first letter tells.
-            ("Ow", "O"),
-            ("Hw1", "H"),
-        ] {
-            assert_eq!(symbol(name), Some(expected), "{name}");
-        }
+        let names = ["CA", "NA", "CD1", "NE2", "1HB2", "OW", "CAL"];
+        assert_eq!(names.map(symbol), ["C", "Na", "C", "N", "H", "O", "Ca"].map(Some));
+        // No element, so the first letter tells.
+        assert_eq!(["Ow", "Hw1"].map(symbol), ["O", "H"].map(Some));
     }
 
     #[test]
@@ -129,8 +110,6 @@ mod tests {
 
     #[test]
     fn a_bead_is_no_element() {
-        for name in ["W", "W1", "B", "BB", "U"] {
-            assert_eq!(symbol(name), None, "{name}");
-        }
+        assert_eq!(["W", "W1", "B", "BB", "U"].map(symbol), [None; 5]);
     }
 }

@@ -12,6 +12,7 @@ use crate::view::{Lens, LensKind, View};
 use glam::DVec3;
 use projection::projection;
 use serde::Deserialize;
+use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Deserializer, Error, SeqAccess, Unexpected, Visitor};
 use spherule_kernel::{Sphere, Vec3};
 use std::fmt;
@@ -101,12 +102,8 @@ impl<'de> Visitor<'de> for LightVisitor {
         }
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut tables: A) -> Result<LightEntry, A::Error> {
-        let mut lights = Vec::new();
-        while let Some(light) = tables.next_element()? {
-            lights.push(light);
-        }
-        Ok(LightEntry::Tables(lights))
+    fn visit_seq<A: SeqAccess<'de>>(self, tables: A) -> Result<LightEntry, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(tables)).map(LightEntry::Tables)
     }
 }
 
@@ -129,7 +126,7 @@ pub fn read(text: &str, source: &str) -> Result<Scene, ReadError> {
         {
             message = format!("{message} `{key}`");
         }
-        Place { text, source, origin: DVec3::ZERO }.error(span, message)
+        ReadError::in_text(source, text, span.start, message)
     })?;
     let first = &table.sphere[..table.sphere.len().min(FIRST)];
     let centers: Vec<_> = first.iter().map(|Table(sphere)| double(&sphere.center)).collect();
@@ -153,11 +150,7 @@ struct Place<'a> {
 
 impl Place<'_> {
     fn error(&self, span: Range<usize>, what: impl Into<String>) -> ReadError {
-        let before = self.text.get(..span.start).unwrap_or(self.text);
-        let line_start = before.rfind('\n').map_or(0, |end| end + 1);
-        let line = before.matches('\n').count() + 1;
-        let column = before[line_start..].chars().count() + 1;
-        ReadError::at(self.source, line, column, what)
+        ReadError::in_text(self.source, self.text, span.start, what)
     }
 
     fn number(&self, number: &Number, name: &str) -> Result<f32, ReadError> {
@@ -220,19 +213,16 @@ fn scene(table: SceneTable, place: &Place<'_>) -> Result<Scene, ReadError> {
     if table.sphere.is_empty() {
         return Err(ReadError::whole(place.source, "an empty scene: at least one [[sphere]]"));
     }
-    scene.lighting = lighting(&table.light, place)?;
-    Ok(scene)
-}
-
-fn lighting(entry: &LightEntry, place: &Place<'_>) -> Result<Lighting, ReadError> {
-    match entry {
-        LightEntry::Camera => Ok(Lighting::Camera),
-        LightEntry::Tables(tables) if tables.is_empty() => Ok(Lighting::Plain),
+    scene.lighting = match table.light {
+        LightEntry::Camera => Lighting::Camera,
+        LightEntry::Tables(tables) if tables.is_empty() => Lighting::Plain,
         LightEntry::Tables(tables) => {
-            let lights: Result<_, _> = tables.iter().map(|table| light(table, place)).collect();
-            lights.map(Lighting::World)
+            let lights: Result<Vec<_>, _> =
+                tables.iter().map(|table| light(table, place)).collect();
+            Lighting::World(lights?)
         }
-    }
+    };
+    Ok(scene)
 }
 
 fn light(table: &Spanned<Table<LightTable>>, place: &Place<'_>) -> Result<Light, ReadError> {

@@ -54,7 +54,7 @@ impl DepthCue {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::view::{Lens, LensKind, with_projection};
+    use crate::view::{LensKind, with_projection};
 
     /// At the far end: 0.85 of the lightness is lost, and 0.15^3 of the light is left.
     const FARTHEST: f32 = 0.996_625;
@@ -90,11 +90,7 @@ mod tests {
 
     #[test]
     fn from_inside_it_begins_at_the_eye() {
-        let view = View {
-            eye: Vec3::new(0.0, 0.0, 0.5),
-            lens: Lens::Perspective { fov: 40.0 },
-            ..View::FRONT
-        };
+        let view = View { eye: Vec3::new(0.0, 0.0, 0.5), ..View::FRONT };
         let cue = DepthCue::new(&view, subject(Vec3::ZERO, 1.0));
         assert_eq!(cue.veil(0.0), 0.0);
         assert!((cue.veil(1.5) - FARTHEST).abs() < 1e-6);

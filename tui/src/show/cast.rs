@@ -40,11 +40,8 @@ pub(super) fn write(
     (view, style, size): (&View, &Style, (u16, u16)),
     renderer: &mut Renderer<'_>,
 ) -> Result<(), Error> {
-    let failed = |error: &std::io::Error| match name.to_str() {
-        Some("-") => Error::of_output("standard output", error),
-        _ => Error::of_output(&name.to_string_lossy(), error),
-    };
-    let mut file = BufWriter::new(WholeFile::create(name).map_err(|error| failed(&error))?);
+    let failed = |error: std::io::Error| Error::of_file(name, &error);
+    let mut file = BufWriter::new(WholeFile::create(name).map_err(failed)?);
     let (mut cast, mut progress) = (Cast::default(), Progress::after(PATIENCE));
     let tolerance = if turn.lossless { 0.0 } else { TOLERANCE };
     let economy = Economy { tolerance, ..Economy::NONE };
@@ -58,10 +55,10 @@ pub(super) fn write(
         // As a picture that moves: what does not change keeps its glyphs.
         let spending = Spending::AtMost(u64::MAX);
         let cells = renderer.draw(scene, &search, &view, style, size, spending).cells;
-        cast.frame(&cells, seconds(frame), economy, &mut file).map_err(|error| failed(&error))?;
+        cast.frame(&cells, seconds(frame), economy, &mut file).map_err(failed)?;
         progress.show("recording", f64::from(frame + 1) / f64::from(turn.frames));
     }
-    cast.end(seconds(turn.frames), &mut file).map_err(|error| failed(&error))?;
-    let file = file.into_inner().map_err(|error| failed(&error.into_error()))?;
-    file.finish().map_err(|error| failed(&error))
+    cast.end(seconds(turn.frames), &mut file).map_err(failed)?;
+    let file = file.into_inner().map_err(|error| failed(error.into_error()))?;
+    file.finish().map_err(failed)
 }

@@ -49,11 +49,9 @@ impl Once<'_> {
             legend.write(&mut cells, self.size.1, &self.style);
             return write(&cells);
         }
-        let (mut done, mut bytes, mut progress) = (0_u32, Vec::new(), self.progress());
+        let (mut done, mut progress) = (0_u32, self.progress());
         renderer.draw_strips(self.scene, search, &self.view, &self.style, self.size, |cells| {
-            bytes.clear();
-            encode::full(cells, &mut bytes);
-            write_stdout(&bytes)?;
+            write(cells)?;
             done += u32::from(cells.rows());
             if let Some(progress) = &mut progress {
                 progress.show("drawing", f64::from(done) / f64::from(self.size.1));
@@ -88,12 +86,9 @@ impl Once<'_> {
         });
         drop(progress);
         let (painter, (_, rows)) = (MapPainter::new(&self.style), map.size());
-        let mut bytes = Vec::new();
         for first in (0..rows).step_by(MAP_STRIP.into()) {
-            bytes.clear();
             let strip = first..first.saturating_add(MAP_STRIP).min(rows);
-            encode::full(&painter.cells(&map, strip), &mut bytes);
-            write_stdout(&bytes)?;
+            write(&painter.cells(&map, strip))?;
         }
         Ok(())
     }

@@ -93,25 +93,8 @@ mod tests {
     use std::os::fd::AsRawFd;
     use std::time::Duration;
 
-    /// Draws the frames of a file of this text, as x of their first atom, until one is `last`.
-    fn drawn(name: &str, text: &str, follow: bool, last: f32) -> (Vec<f32>, Result<(), Error>) {
-        let (seen, result) = numbered(name, text, follow, last);
-        assert!(seen.iter().enumerate().all(|(place, &(index, _))| index == place), "{seen:?}");
-        (seen.into_iter().map(|(_, x)| x).collect(), result)
-    }
-
-    /// The same, with their numbers.
-    fn numbered(
-        name: &str,
-        text: &str,
-        follow: bool,
-        last: f32,
-    ) -> (Vec<(usize, f32)>, Result<(), Error>) {
-        drawn_of(opened(name, text, follow), last)
-    }
-
-    /// The same of frames that have been opened.
-    fn drawn_of(frames: Frames, last: f32) -> (Vec<(usize, f32)>, Result<(), Error>) {
+    /// Draws frames until x of the first atom is `last`; tells their numbers, and x of each.
+    fn drawn(frames: Frames, last: f32) -> (Vec<(usize, f32)>, Result<(), Error>) {
         let mut seen = Vec::new();
         let result = while_reading(frames, 0..9, |index, scene| {
             let x = scene.spheres().get(0).expect("an atom").center.x;
@@ -124,7 +107,8 @@ mod tests {
 
     /// A file of this text.
     fn opened(name: &str, text: &str, follow: bool) -> Frames {
-        let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
+        let file = format!("spherule-drawn-{}-{name}", std::process::id());
+        let path = std::env::temp_dir().join(file);
         std::fs::write(&path, text).expect("a file");
         open_by(path.to_str().expect("UTF-8"), &Reading { follow, ..Reading::default() })
     }
@@ -147,15 +131,15 @@ mod tests {
 
     #[test]
     fn frames_come_in_order_until_there_are_no_more() {
-        let (seen, result) = drawn("order.xyz", THREE, false, 9.0);
-        assert_eq!(seen, [0.0, 1.0, 2.0]);
+        let (seen, result) = drawn(opened("order.xyz", THREE, false), 9.0);
+        assert_eq!(seen, [(0, 0.0), (1, 1.0), (2, 2.0)]);
         result.expect("no error");
     }
 
     #[test]
     fn frames_without_atoms_are_left_out() {
         let text = [dump(&[]), dump(&[1]), dump(&[]), dump(&[]), dump(&[4])].concat();
-        let (seen, result) = numbered("empty.dump", &text, false, 9.0);
+        let (seen, result) = drawn(opened("empty.dump", &text, false), 9.0);
         assert_eq!(seen, [(1, 1.0), (4, 4.0)]);
         result.expect("no error");
     }
@@ -172,16 +156,16 @@ mod tests {
     #[test]
     fn what_is_before_a_bad_frame_is_drawn() {
         let bad = THREE.replace("C 2", "C x");
-        let (seen, result) = drawn("bad.xyz", &bad, false, 9.0);
-        assert_eq!(seen, [0.0, 1.0]);
+        let (seen, result) = drawn(opened("bad.xyz", &bad, false), 9.0);
+        assert_eq!(seen, [(0, 0.0), (1, 1.0)]);
         let Err(Error::Input(error)) = result else { panic!("{result:?}") };
         assert!(error.contains(":9:3: x is \"x\": no number"), "{error}");
     }
 
     #[test]
     fn whoever_stops_drawing_does_not_wait_for_a_file_to_grow() {
-        let (seen, result) = drawn("grows.xyz", THREE, true, 2.0);
-        assert_eq!(seen, [0.0, 1.0, 2.0]);
+        let (seen, result) = drawn(opened("grows.xyz", THREE, true), 2.0);
+        assert_eq!(seen, [(0, 0.0), (1, 1.0), (2, 2.0)]);
         assert!(result.is_err());
     }
 
@@ -194,7 +178,7 @@ mod tests {
         thread::spawn(move || {
             let reading = Reading { format: Some(Format::Xyz), ..Reading::default() };
             let frames = open_by(&format!("/dev/fd/{}", reader.as_raw_fd()), &reading);
-            sender.send(drawn_of(frames, 1.0)).expect("it is awaited");
+            sender.send(drawn(frames, 1.0)).expect("it is awaited");
         });
         let (seen, result) = ended.recv_timeout(Duration::from_secs(5)).expect("an end");
         assert_eq!(seen, [(0, 0.0), (1, 1.0)]);

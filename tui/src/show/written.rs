@@ -1,7 +1,8 @@
-//! What is written without the viewer: a recording, an image, a pick, a picture in pixels or in cells.
+//! What is written without the viewer: a recording, an image, a pick, a picture in pixels or in cells, those of the frames that follow.
 
 use super::cast;
 use super::once::Once;
+use super::reading::while_reading;
 use crate::arguments::{Overlay, PictureArguments};
 use crate::choice::Auto;
 use crate::coloring::legend::Legend;
@@ -16,13 +17,15 @@ use crate::pixels::{Output, Protocol};
 use crate::png_file;
 use crate::progress::{PATIENCE, Progress};
 use crate::scene::Scene;
+use crate::scene::frames::Frames;
 use crate::structure::choose::Workload;
-use crate::structure::scene::{PictureSearch, SceneStructures};
+use crate::structure::scene::SceneStructures;
 use crate::style::{ColorDepth, PIPE_SIZE, Style};
 use crate::terminal::{Abilities, pixels_of_cell, size_of_stdout};
 use crate::tradeoff::Question;
 use crate::view::View;
 use spherule_kernel::{Ray, Tier};
+use std::ops::Range;
 use std::path::Path;
 
 /// The most pixels of a picture that is written by a protocol, since it is held whole: 200 MB.
@@ -126,7 +129,9 @@ impl Written<'_, '_> {
         let Self { arguments, scene, size, .. } = *self;
         let ray = ray_of_pick(&self.view, &self.style, size, cell)?;
         let level = self.renderer.machine().0;
-        let pick = Pick::new(scene, &self.search()?, level, ray);
+        let (structure, workload) = (arguments.computing.structure, self.workload());
+        let search = self.structures.picture(structure, &workload, &self.view, scene)?;
+        let pick = Pick::new(scene, &search, level, ray);
         let report = Report { scene: &arguments.scene.name, size, cell, pick };
         let text = if arguments.json { report.json() } else { report.text() };
         write_stdout(text.as_bytes())
@@ -173,9 +178,25 @@ impl Written<'_, '_> {
         }
     }
 
-    fn search(&mut self) -> Result<PictureSearch<'_>, Error> {
-        let (structure, workload) = (self.arguments.computing.structure, self.workload());
-        self.structures.picture(structure, &workload, &self.view, self.scene)
+    /// Writes the pictures of a range of frames, one after another, from where the first is seen.
+    pub(super) fn following(
+        &mut self,
+        frames: Frames,
+        range: Range<usize>,
+        mut prepared: impl FnMut(usize, Scene) -> (Scene, Option<Legend>),
+    ) -> Result<(), Error> {
+        let Self { arguments, view, style, size, is_terminal, .. } = *self;
+        let Self { renderer, structures, .. } = self;
+        let (structure, (columns, rows), end) = (arguments.computing.structure, size, range.end);
+        while_reading(frames, range, |index, scene| {
+            let (scene, legend) = prepared(index, scene);
+            structures.go_on(scene.list());
+            let workload = picture_workload(scene.spheres().len(), &style, columns, rows, 1.0)
+                .with_moves((end - index - 1) as f64);
+            let search = structures.picture(structure, &workload, &view, &scene)?;
+            let once = Once { scene: &scene, view, style, size, is_terminal };
+            once.picture(renderer, &search, legend)
+        })
     }
 
     /// The work of a picture in cells, and of the frames that follow it.

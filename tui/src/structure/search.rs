@@ -90,26 +90,30 @@ impl Search<'_> {
         }
     }
 
-    /// Writes to `hits` the closest hit of every ray of a camera's tiles. The rays are made in `rays`, one packet a
-    /// tile.
+    /// Writes to `hits` the closest hit of every ray of a camera's tiles, [part](Self::parts) after part. The rays are made
+    /// in `rays`, one packet a tile.
     pub fn tile_hits(
         &self,
         tracing: Tracing,
-        scratch: &mut Scratch,
+        (scratch, threads): (&mut Scratch, &Threads),
         tiles: CameraTiles<'_>,
         rays: &mut [RayPacket],
         hits: &mut [HitPacket],
     ) {
         let tier = tracing.tier;
-        let (mut trace, raster) = scratch.of(self, tracing);
-        let trace = &mut trace;
-        match self {
-            Self::Brute(spheres) => spheres.closest_hit_tiles(tier, trace, tiles, rays, hits),
-            Self::DepthList(list) => list.closest_hit_tiles(tier, trace, tiles, rays, hits),
-            Self::Bvh(tree) => tree.closest_hit_tiles(tier, trace, tiles, rays, hits),
-            Self::Objects(objects) => {
-                tile_rays(tracing.level, tiles, rays);
-                objects.closest_hits(tracing, raster, rays, hits);
+        for part in self.parts(rays.len(), threads) {
+            let tiles = CameraTiles { corners: &tiles.corners[part.clone()], ..tiles };
+            let (rays, hits) = (&mut rays[part.clone()], &mut hits[part]);
+            let (mut trace, raster) = scratch.of(self, tracing);
+            let trace = &mut trace;
+            match self {
+                Self::Brute(spheres) => spheres.closest_hit_tiles(tier, trace, tiles, rays, hits),
+                Self::DepthList(list) => list.closest_hit_tiles(tier, trace, tiles, rays, hits),
+                Self::Bvh(tree) => tree.closest_hit_tiles(tier, trace, tiles, rays, hits),
+                Self::Objects(objects) => {
+                    tile_rays(tracing.level, tiles, rays);
+                    objects.closest_hits(tracing, raster, rays, hits);
+                }
             }
         }
     }
@@ -172,6 +176,7 @@ mod tests {
         let (size, search) = ((64, 48), Search::Brute(list.spheres()));
         let camera = View::FRONT.camera(size.0, size.1, 4.0 / 3.0);
         let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(size.0, size.1).collect();
+        let threads = Threads::default();
         for tier in Tier::ALL {
             let traced = |at_once: usize| {
                 let (level, coherence) = (Level::best(), Coherence::Coherent);
@@ -182,7 +187,7 @@ mod tests {
                 let parts = rays.chunks_mut(at_once).zip(hits.chunks_mut(at_once));
                 for (corners, (rays, hits)) in corners.chunks(at_once).zip(parts) {
                     let tiles = CameraTiles { camera, size, corners };
-                    search.tile_hits(tracing, &mut scratch, tiles, rays, hits);
+                    search.tile_hits(tracing, (&mut scratch, &threads), tiles, rays, hits);
                 }
                 hits.iter().flat_map(HitPacket::hits).collect::<Vec<_>>()
             };

@@ -129,15 +129,12 @@ impl Input {
                 self.unfinished.extend_from_slice(&bytes[..count]);
                 self.take_incoming(true);
             }
-            Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => {
-                return Err(hung_up());
-            }
             Err(error)
                 if matches!(
                     error.kind(),
                     io::ErrorKind::Interrupted | io::ErrorKind::WouldBlock
                 ) => {}
-            Err(error) => return Err(error),
+            Err(error) => return Err(or_hung_up(error)),
         }
         Ok(())
     }
@@ -159,9 +156,15 @@ impl Input {
 }
 
 /// Ends the process as SIGHUP does, since only the controlling terminal sends that when it goes.
-pub(super) fn hung_up() -> io::Error {
+fn hung_up() -> io::Error {
     die_by(SIGHUP);
     io::ErrorKind::UnexpectedEof.into()
+}
+
+/// A terminal that goes away in the middle of a frame is treated as one that is found gone when it is read.
+pub(super) fn or_hung_up(error: io::Error) -> io::Error {
+    let is_gone = error.raw_os_error() == Some(Errno::IO.raw_os_error());
+    if is_gone { hung_up() } else { error }
 }
 
 impl Drop for Input {

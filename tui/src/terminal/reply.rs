@@ -97,10 +97,7 @@ fn background(text: &str) -> Option<Srgb> {
     let channels = text.strip_prefix("rgb:").or_else(|| text.strip_prefix("rgba:"))?;
     let mut channels = channels.split('/').map(|digits| {
         let most = match digits.len() {
-            1 => 0xf,
-            2 => 0xff,
-            3 => 0xfff,
-            4 => 0xffff,
+            count @ 1..=4 => (1_u32 << (4 * count)) - 1,
             _ => return None,
         };
         let is_plain = digits.bytes().all(|digit| digit.is_ascii_hexdigit());

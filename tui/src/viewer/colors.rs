@@ -80,7 +80,7 @@ impl Colors {
         let by = self.choices.get(choice).unwrap_or(&ColorBy::Scene);
         let (found, lack) = match coloring(scene, by, range, &mut self.seen) {
             Ok(found) => (found, None),
-            Err(lack) => (Coloring { colors: None, legend: None }, Some(lack)),
+            Err(lack) => (Coloring::default(), Some(lack)),
         };
         self.legend = found.legend;
         // Threads that measure or read ahead may share the scene: then this one becomes a copy.
@@ -101,7 +101,6 @@ impl Colors {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::coloring::legend::Entries;
     use crate::scene::attributes::{Attributes, NumberColumn};
     use spherule_kernel::{SphereList, Vec3};
 
@@ -176,10 +175,7 @@ mod tests {
                 colors.legend.clone()
             })
         };
-        let legend = |low, high| {
-            let range = Range { low, high };
-            Some(Legend::new("q", Entries::Numbers { range, has_none: false }))
-        };
+        let legend = |low, high| Some(Legend::of_numbers("q", low, high, false));
         assert_eq!(legends(None), [legend(2.0, 4.0), legend(2.0, 7.0), legend(2.0, 7.0)]);
         let asked = Some(Range { low: 0.0, high: 5.0 });
         assert_eq!(legends(asked), [legend(0.0, 5.0), legend(0.0, 5.0), legend(0.0, 5.0)]);

@@ -151,49 +151,39 @@ mod tests {
     use crate::color::Srgb;
     use crate::coloring::ColorBy;
     use crate::scene::attributes::Attributes;
-    use crate::style::Style;
     use crate::view::View;
     use crate::viewer::Start;
     use clap::Parser;
     use spherule_kernel::{Sphere, SphereList};
+    use std::ffi::OsStr;
     use std::os::unix::ffi::OsStringExt;
 
-    fn asked(words: &[OsString]) -> PictureArguments {
-        let words = std::iter::once(OsString::from("spherule")).chain(words.iter().cloned());
+    fn asked(words: &[impl AsRef<OsStr>]) -> PictureArguments {
+        let program = OsStr::new("spherule");
+        let words = std::iter::once(program).chain(words.iter().map(AsRef::as_ref));
         Arguments::try_parse_from(words).expect("a command line").picture
     }
 
     /// The command line of a view, whose style is the usual one.
     fn told(asked: &PictureArguments, frame: usize, view: &View, scene: &Scene) -> String {
-        let start = Start {
-            view: *view,
-            style: Style::PLAIN,
-            structure: None,
-            comparison: None,
-            table: false,
-            legend: false,
-        };
+        let start = Start { view: *view, ..Start::FRONT };
         let colors = Colors::new(scene, &ColorBy::Scene, None);
         command_line(asked, frame, &State::new(start, colors.start()), scene, &colors)
     }
 
-    fn words(words: &[&str]) -> Vec<OsString> {
-        words.iter().map(OsString::from).collect()
-    }
-
     /// The command line of a frame, in coordinates of the file.
     fn of_words(line: &[&str], frame: usize) -> String {
-        told(&asked(&words(line)), frame, &View::FRONT, &Scene::new())
+        told(&asked(line), frame, &View::FRONT, &Scene::new())
     }
 
     /// The scene of a command line without quotes.
     fn again(line: &str) -> SceneArguments {
-        asked(&words(&line.split(' ').skip(1).collect::<Vec<_>>())).scene
+        asked(&line.split(' ').skip(1).collect::<Vec<_>>()).scene
     }
 
     /// The command line of the first frame, in coordinates of the file.
     fn line(scene: &str, view: &View) -> String {
-        told(&asked(&words(&[scene])), 0, view, &Scene::new())
+        told(&asked(&[scene]), 0, view, &Scene::new())
     }
 
     #[test]
@@ -262,7 +252,7 @@ mod tests {
         elements.elements = Some(vec![6]);
         let list = SphereList::from_iter([(Vec3::ZERO, 1.0)]);
         let scene = Scene::of_spheres(list, vec![Srgb::WHITE], elements);
-        let line = told(&asked(&self::words(&words)), 7, &View::FRONT, &scene);
+        let line = told(&asked(&words), 7, &View::FRONT, &scene);
         let end = " --frame 7 --topology 'a b.gro' --radius van-der-waals";
         assert!(line.ends_with(end), "{line}");
     }
@@ -274,7 +264,7 @@ mod tests {
         scene.push(Sphere { center: Vec3::ZERO, radius: 0.3 }, Srgb::WHITE, None);
         scene.unstated_radius = Some(0.3);
         let radius = |line: &[&str], frame, scene: &Scene| {
-            let line = told(&asked(&words(line)), frame, &View::FRONT, scene);
+            let line = told(&asked(line), frame, &View::FRONT, scene);
             line.split_once(" --radius ").map(|(_, radius)| radius.to_owned())
         };
         assert_eq!(radius(&["t.dump"], 3, &scene).as_deref(), Some("0.3"));
@@ -296,7 +286,7 @@ mod tests {
         let view = View { eye: Vec3::new(0.5, -2.0, 1e-7), ..View::FRONT };
         let mut scene = Scene::new();
         scene.origin = DVec3::new(5e5, 5.4e6, 0.0);
-        let line = told(&asked(&words(&["map"])), 0, &view, &scene);
+        let line = told(&asked(&["map"]), 0, &view, &scene);
         assert!(line.starts_with("spherule map --eye 500000.5,5399998,0.0000001"), "{line}");
         assert!(line.contains(" --target 500000,5400000,0 "), "{line}");
     }

@@ -134,7 +134,7 @@ impl Viewer {
         self.bytes.append(&mut self.pending_removal);
         // A passing frame may merely look alike; at rest all is sent, a part at a time if the link
         // is slow.
-        let economy = match (moving, self.lossless || picture.image.is_some()) {
+        let economy = match (moving, self.asked.lossless || picture.image.is_some()) {
             (false, _) => Economy { most_bytes: self.flow.most_bytes(), ..Economy::NONE },
             (true, false) => Economy { tolerance: self.flow.tolerance(), ..Economy::NONE },
             (true, true) => Economy::NONE,
@@ -169,13 +169,8 @@ impl Viewer {
         let first = film.into_iter().chain(draws.then(|| DRAWING.to_owned()));
         let first = first.collect::<Vec<_>>().join("  ");
         let structure = self.state.shown.structure.or(picture.structure);
-        status::write(
-            &mut cells,
-            status_row,
-            (&self.state, &*first),
-            (self.order, structure),
-            figures,
-        );
+        let (state, searched) = ((&self.state, &*first), (self.order, structure));
+        status::write(&mut cells, status_row, state, searched, figures);
         self.encoder.encode_row(&cells, status_row, &mut self.bytes);
         self.encoder.bracket(0, &mut self.bytes);
         // Its time is that of the picture, and comes before that of what is shown meanwhile.

@@ -143,6 +143,6 @@ impl Viewer {
         let abilities = self.terminal.abilities();
         self.encoder.set_synchronized(abilities.synchronized);
         self.surroundings.told = abilities.truecolor;
-        self.state.set_depth(self.surroundings.depth(self.color))
+        self.state.set_depth(self.surroundings.depth(self.asked.color))
     }
 }

@@ -48,7 +48,7 @@ impl Meter {
         let after_a_pause = self.last.is_none_or(|last| now - last > WINDOW);
         self.last = Some(now);
         if after_a_pause {
-            self.figures = Figures { frames_per_second: None, ..means(&frame, 1) };
+            self.figures = means(&frame, 1);
             self.restart(now);
             return self.figures;
         }

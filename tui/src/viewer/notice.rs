@@ -40,7 +40,9 @@ impl Viewer {
         // Standard input is called `-`, which begins an option.
         let name = if stem.starts_with('-') { "spherule" } else { &*stem };
         self.notice = Some(match self.recording.take() {
-            None if self.pixels.are_shown() => "pixels are not recorded: --output cells".to_owned(),
+            None if self.pixels.protocol.is_some() => {
+                "pixels are not recorded: --output cells".to_owned()
+            }
             None => match Recording::begin(name, now) {
                 Ok(recording) => {
                     self.recording = Some(recording);
@@ -82,8 +84,7 @@ mod tests {
         let written = |text: &str| {
             let mut cells = CellGrid::new(5, 4);
             write(&mut cells, 3, text);
-            let row = |row| cells.row(row).iter().map(|cell| cell.glyph).collect::<String>();
-            [0, 1, 2, 3].map(row)
+            cells.lines()
         };
         assert_eq!(written("abcdefg"), ["     ", " abcd", "efg  ", "     "]);
         // A quote is itself, in the name of a file.

@@ -40,7 +40,7 @@ impl Cursor {
 pub(super) fn write(cells: &mut CellGrid, rows: u16, cursor: Cursor, lines: &[String]) {
     let Cursor { column, row } = cursor.within((cells.columns(), rows));
     cells.write(column, row, CROSS, Color::Default, Color::Default);
-    cells.mark(column, row);
+    cells.set_mark(Some((column, row)));
 
     let (above, below) = (row, rows.saturating_sub(row + 1));
     let wanted = u16::try_from(lines.len()).unwrap_or(u16::MAX);
@@ -79,7 +79,7 @@ mod tests {
     }
 
     fn text(cells: &CellGrid, row: u16) -> String {
-        cells.row(row).iter().map(|cell| cell.glyph).collect()
+        cells.lines().remove(row.into())
     }
 
     #[test]

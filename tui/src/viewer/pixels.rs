@@ -8,6 +8,7 @@ use crate::terminal::{Reply, Terminal};
 #[derive(Debug)]
 pub(super) struct Pixels {
     pub(super) output: Output,
+    /// How pixels are written, where nothing is shown that is made of cells; `None` if frames are cells.
     pub(super) protocol: Auto<Protocol>,
     /// How many images were sent.
     pub(super) sent: u32,
@@ -22,11 +23,6 @@ impl Pixels {
     pub(super) fn new(output: Output, terminal: &Terminal) -> Self {
         let protocol = output.protocol(terminal.abilities());
         Self { output, protocol, sent: 0, is_shown: false, awaits_first: None }
-    }
-
-    /// Whether frames are pixels, where nothing is shown that is made of cells.
-    pub(super) fn are_shown(&self) -> bool {
-        self.protocol.is_some()
     }
 
     /// Takes note of an answer; returns whether it tells that the terminal has no such images.
@@ -73,10 +69,8 @@ mod tests {
     #[test]
     fn an_image_that_is_answered_is_there() {
         assert_eq!(denied(0, &[IMAGE, Reply::Status]), [false; 2]);
-        assert_eq!(
-            denied(2, &[Reply::Status, Reply::Status, IMAGE, Reply::Status, Reply::Status]),
-            [false; 5]
-        );
+        let late = [Reply::Status, Reply::Status, IMAGE, Reply::Status, Reply::Status];
+        assert_eq!(denied(2, &late), [false; 5]);
         // Another image than ours says nothing.
         assert_eq!(denied(0, &[Reply::Image(31, true), Reply::Status]), [false, true]);
         assert_eq!(denied(0, &[Reply::Image(kitty::NUMBERS[1], false)]), [true]);

@@ -22,7 +22,7 @@ use crate::picture::Image;
 use crate::scene::Scene;
 use crate::structure::{Order, Structure};
 use crate::terminal::Terminal;
-use crate::terminal::color_depth::{ColorChoice, Surroundings};
+use crate::terminal::color_depth::Surroundings;
 use crossterm::event::Event;
 use spherule_kernel::Sphere;
 use std::sync::Arc;
@@ -39,8 +39,6 @@ pub(super) struct Viewer {
     pub(super) order: Order,
     pub(super) terminal: Terminal,
     pub(super) surroundings: Surroundings,
-    pub(super) color: ColorChoice,
-    pub(super) lossless: bool,
     pub(super) pixels: Pixels,
     /// What the command line says.
     pub(super) asked: PictureArguments,

@@ -148,24 +148,12 @@ impl State {
 
     pub(super) fn apply(&mut self, input: Input) -> Outcome {
         let before = self.shown;
-        let Shown {
-            view,
-            style,
-            structure,
-            comparison,
-            help,
-            spinning,
-            table,
-            cursor,
-            coloring,
-            legend,
-            ..
-        } = &mut self.shown;
+        let shown = &mut self.shown;
         match input {
             Input::Quit => return Outcome::Quit,
-            Input::Escape if *help => *help = false,
-            Input::Escape if *table => *table = false,
-            Input::Escape if cursor.is_some() => *cursor = None,
+            Input::Escape if shown.help => shown.help = false,
+            Input::Escape if shown.table => shown.table = false,
+            Input::Escape if shown.cursor.is_some() => shown.cursor = None,
             Input::Escape => return Outcome::Quit,
             Input::Grab(column, row) | Input::GrabPlane(column, row) => {
                 self.hand.grab((column, row));
@@ -181,65 +169,65 @@ impl State {
             Input::Drag(column, row) => self.drag_to(column, row),
             Input::DragPlane(column, row) => self.pull_to(column, row),
             Input::Release(column, row) => self.release(column, row),
-            Input::Pick if cursor.is_some() => *cursor = None,
+            Input::Pick if shown.cursor.is_some() => shown.cursor = None,
             Input::Pick => self.pick(Cursor::middle(self.size)),
-            Input::Orbit(right, up) if cursor.is_some() => {
-                *cursor = cursor.map(|cursor| cursor.moved(right, up, self.size));
+            Input::Orbit(right, up) if shown.cursor.is_some() => {
+                shown.cursor = shown.cursor.map(|cursor| cursor.moved(right, up, self.size));
             }
             Input::Orbit(right, up) => {
                 let step = |count| f32::from(count) * ORBIT_STEP;
-                *view = orbited(view, step(right), step(up));
+                shown.view = orbited(&shown.view, step(right), step(up));
             }
             Input::Pan(right, up) => {
-                let step = PAN_STEP * f64::from(view.height_at_target());
-                *view = panned(view, f64::from(right) * step, f64::from(up) * step);
+                let step = PAN_STEP * f64::from(shown.view.height_at_target());
+                shown.view = panned(&shown.view, f64::from(right) * step, f64::from(up) * step);
             }
-            Input::Zoom(steps) => *view = zoomed(view, ZOOM_STEP.powi(steps.into())),
+            Input::Zoom(steps) => shown.view = zoomed(&shown.view, ZOOM_STEP.powi(steps.into())),
             // A key that asks for what this process cannot compute does nothing.
             Input::Accuracy(tier) if check_floats(tier).is_err() => {}
             Input::Accuracy(tier) => {
-                style.accuracy = tier;
+                shown.style.accuracy = tier;
                 // The left half is the one to choose.
-                if let Some(Comparison::Split([left, _])) = comparison {
+                if let Some(Comparison::Split([left, _])) = &mut shown.comparison {
                     *left = tier;
                 }
             }
             // The truth is what exact says.
             Input::Errors | Input::Split | Input::Table if check_floats(Tier::Exact).is_err() => {}
             Input::Errors => {
-                *comparison = match comparison {
+                shown.comparison = match shown.comparison {
                     Some(Comparison::Errors) => None,
                     _ => Some(Comparison::Errors),
                 }
             }
             Input::Split => {
-                *comparison = match (*comparison, style.accuracy) {
+                shown.comparison = match (shown.comparison, shown.style.accuracy) {
                     (Some(Comparison::Split(_)), _) => None,
                     // `Exact` has no visible error: compare `Fast` with it.
                     (_, Tier::Exact) => Some(Comparison::Split([Tier::Fast, Tier::Exact])),
                     (_, tier) => Some(Comparison::Split([tier, Tier::Exact])),
                 }
             }
-            Input::Table => (*table, *cursor) = (!*table, None),
+            Input::Table => (shown.table, shown.cursor) = (!shown.table, None),
             Input::Projection => {
-                let other = match view.lens_kind() {
+                let other = match shown.view.lens_kind() {
                     LensKind::Perspective => LensKind::Parallel,
                     LensKind::Parallel => LensKind::Perspective,
                 };
-                *view = with_projection(view, other);
+                shown.view = with_projection(&shown.view, other);
             }
             Input::Charset => {
-                style.charset = next(Some(style.charset)).unwrap_or(Charset::Ascii);
+                shown.style.charset = next(Some(shown.style.charset)).unwrap_or(Charset::Ascii);
             }
-            Input::Occlusion => style.aids.occlusion = !style.aids.occlusion,
-            Input::Edges => style.aids.edges = !style.aids.edges,
-            Input::DepthCue => style.aids.depth_cue = !style.aids.depth_cue,
-            Input::Coloring => *coloring = (*coloring + 1) % self.colorings.max(1),
-            Input::Legend => *legend = !*legend,
-            Input::Structure => *structure = next(*structure),
-            Input::Spin => *spinning = !*spinning,
-            Input::Reset => (*view, *spinning) = (self.home, false),
-            Input::Help => *help = !*help,
+            Input::Occlusion => shown.style.aids.occlusion = !shown.style.aids.occlusion,
+            Input::Edges => shown.style.aids.edges = !shown.style.aids.edges,
+            Input::DepthCue => shown.style.aids.depth_cue = !shown.style.aids.depth_cue,
+            Input::Coloring => shown.coloring = (shown.coloring + 1) % self.colorings.max(1),
+            Input::Legend => shown.legend = !shown.legend,
+            Input::Structure => shown.structure = next(shown.structure),
+            Input::Spin => shown.spinning = !shown.spinning,
+            Input::Reset => (shown.view, shown.spinning) = (self.home, false),
+            Input::Help => shown.help = !shown.help,
             // These concern the terminal or need the scene.
             Input::Suspend
             | Input::Resize

@@ -69,31 +69,25 @@ fn figure_texts(figures: Figures) -> [String; 5] {
 mod tests {
     use super::*;
     use crate::style::{Charset, Style};
-    use crate::view::View;
     use crate::viewer::Start;
     use clap::ValueEnum;
     use spherule_kernel::Tier;
     use std::time::Duration;
 
-    fn state(choice: Auto<Structure>) -> State {
+    fn state(structure: Auto<Structure>) -> State {
         let style = Style { accuracy: Tier::Stable, charset: Charset::Half, ..Style::PLAIN };
-        State::new(
-            Start {
-                view: View::FRONT,
-                style,
-                structure: choice,
-                comparison: None,
-                table: false,
-                legend: false,
-            },
-            (0, 3),
-        )
+        State::new(Start { style, structure, ..Start::FRONT }, (0, 3))
     }
 
-    fn text(columns: u16, state: &State, searched: (Order, Structure), figures: Figures) -> String {
+    fn text(
+        columns: u16,
+        state: (&State, &str),
+        searched: (Order, Auto<Structure>),
+        figures: Figures,
+    ) -> String {
         let mut cells = CellGrid::new(columns, 2);
-        write(&mut cells, 1, (state, ""), (searched.0, Some(searched.1)), figures);
-        cells.row(1).iter().map(|cell| cell.glyph).collect()
+        write(&mut cells, 1, state, searched, figures);
+        cells.lines().remove(1)
     }
 
     fn line(columns: u16, choice: Auto<Structure>) -> String {
@@ -108,7 +102,7 @@ mod tests {
             bytes: 45_678,
             round_trip: None,
         };
-        text(columns, &state(choice), (order, Structure::Bvh), figures)
+        text(columns, (&state(choice), ""), (order, CHOSEN), figures)
     }
 
     const AUTO: Auto<Structure> = None;
@@ -125,7 +119,7 @@ mod tests {
     #[test]
     fn the_round_trip_is_the_last_figure() {
         let figures = Figures { round_trip: Some(Duration::from_millis(23)), ..Figures::default() };
-        let text = text(100, &state(AUTO), (Order::Image, Structure::Bvh), figures);
+        let text = text(100, (&state(AUTO), ""), (Order::Image, CHOSEN), figures);
         assert_eq!(
             text,
             " stable perspective half bvh  -- fps   0.0 ms   0.0 Mrays/s   0.0 kB rtt  23 ms      ? help  q quit "
@@ -180,7 +174,7 @@ mod tests {
                     };
                     let structure = choice.unwrap_or(Structure::DepthList);
                     for order in [Order::Image, Order::Object] {
-                        let text = text(80, &state, (order, structure), figures);
+                        let text = text(80, (&state, ""), (order, Some(structure)), figures);
                         assert!(text.ends_with(&format!(" {HINT}")), "{text}");
                         assert!(text.contains("fps"), "{text}");
                         assert!(choice.is_none() || text.contains(&name(&structure)), "{text}");
@@ -193,10 +187,8 @@ mod tests {
 
     #[test]
     fn letters_of_two_bytes_have_one_cell() {
-        let (mut cells, state) = (CellGrid::new(90, 1), state(AUTO));
-        let searched = (Order::Image, Some(Structure::Bvh));
-        write(&mut cells, 0, (&state, "frame 1: \u{e9}"), searched, Figures::default());
-        let text: String = cells.row(0).iter().map(|cell| cell.glyph).collect();
+        let (state, searched) = (state(AUTO), (Order::Image, CHOSEN));
+        let text = text(90, (&state, "frame 1: \u{e9}"), searched, Figures::default());
         assert!(text.starts_with(" frame 1: \u{e9}  stable ") && text.ends_with(HINT), "{text}");
     }
 
@@ -207,10 +199,8 @@ mod tests {
             (61, " drawing ...  stable perspective half  -- fps ? help  q quit "),
             (12, " drawing ..."),
         ] {
-            let (mut cells, state) = (CellGrid::new(columns, 1), state(AUTO));
-            let searched = (Order::Image, None);
-            write(&mut cells, 0, (&state, "drawing ..."), searched, Figures::default());
-            let text: String = cells.row(0).iter().map(|cell| cell.glyph).collect();
+            let (state, searched) = (state(AUTO), (Order::Image, None));
+            let text = text(columns, (&state, "drawing ..."), searched, Figures::default());
             assert_eq!(text, expected);
         }
     }

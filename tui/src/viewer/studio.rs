@@ -145,13 +145,8 @@ impl<'a> Studio<'a> {
                 Drawn { cells, effort: map.effort() }
             }
         };
-        let picture = Picture {
-            of: *wanted,
-            structure: Some(search.structure),
-            drawn,
-            image: None,
-            legend: None,
-        };
+        let (of, structure) = (*wanted, Some(search.structure));
+        let picture = Picture { of, structure, drawn, image: None, legend: None };
         Ok((picture, started.elapsed()))
     }
 
@@ -178,8 +173,6 @@ mod tests {
     use super::*;
     use crate::color::Srgb;
     use crate::structure::Structure;
-    use crate::style::Style;
-    use crate::view::View;
     use crate::viewer::Start;
     use crate::viewer::state::State;
     use spherule_kernel::{Level, Sphere, Vec3};
@@ -194,14 +187,7 @@ mod tests {
             let [x, y, z] = [index % 30, index / 30 % 30, index / 900].map(f32::from);
             scene.push(Sphere { center: Vec3::new(x, y, z), radius: 0.3 }, Srgb::WHITE, None);
         }
-        let start = Start {
-            view: View::FRONT,
-            style: Style::PLAIN,
-            structure: Some(Structure::Bvh),
-            comparison: None,
-            table: false,
-            legend: false,
-        };
+        let start = Start { structure: Some(Structure::Bvh), ..Start::FRONT };
         let pictured = State::new(start, (0, 1)).shown.pictured();
         let manner = Manner { seam: 0, moving: false, spending: Spending::ByNeed };
         for cell in [None, Some((2, 4))] {

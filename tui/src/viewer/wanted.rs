@@ -26,8 +26,6 @@ impl Wanted {
 mod tests {
     use super::*;
     use crate::compare::Comparison;
-    use crate::style::Style;
-    use crate::view::View;
     use crate::viewer::Start;
     use crate::viewer::keys::Input;
     use crate::viewer::state::State;
@@ -35,14 +33,8 @@ mod tests {
 
     #[test]
     fn what_is_held_down_moves_the_picture_and_other_keys_change_it() {
-        let start = Start {
-            view: View::FRONT,
-            style: Style::PLAIN,
-            structure: None,
-            comparison: Some(Comparison::Split([Tier::Fast, Tier::Exact])),
-            table: false,
-            legend: false,
-        };
+        let comparison = Some(Comparison::Split([Tier::Fast, Tier::Exact]));
+        let start = Start { comparison, ..Start::FRONT };
         let shown = |inputs: &[Input]| {
             let mut state = State::new(start, (0, 3));
             state.set_size(80, 24);

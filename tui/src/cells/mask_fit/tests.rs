@@ -5,8 +5,7 @@ use crate::cells::braille::DOT;
 use crate::cells::fit::Fitter;
 use crate::color::{luminance, roots};
 use crate::samples::CellSamples;
-use crate::style::CHAIR;
-use crate::style::{ColorDepth, Style};
+use crate::style::{CHAIR, ColorDepth, Style};
 use glam::DVec3;
 use proptest::prelude::*;
 
@@ -58,12 +57,14 @@ fn candidates(charset: Charset, grid: (usize, usize)) -> Vec<(char, Vec<f64>)> {
     .collect()
 }
 
+/// All that have masks, but Braille.
+const CHARSETS: [Charset; 5] =
+    [Charset::Half, Charset::Quadrant, Charset::Sextant, Charset::Octant, Charset::Block];
+
 fn cells() -> impl Strategy<Value = (Charset, (u32, u32), Vec<Vec3>)> {
-    let charsets =
-        vec![Charset::Half, Charset::Quadrant, Charset::Sextant, Charset::Octant, Charset::Block];
     // What need spends, and grids that masks cut through.
     let grids = vec![(2, 2), (4, 8), (4, 12), (8, 8), (8, 12), (3, 4), (5, 6)];
-    (prop::sample::select(charsets), prop::sample::select(grids), 0.01..0.7_f32).prop_flat_map(
+    (prop::sample::select(&CHARSETS), prop::sample::select(grids), 0.01..0.7_f32).prop_flat_map(
         |(charset, grid, contrast)| {
             let light = (0.0..1.0_f32, 0.0..1.0_f32, 0.0..1.0_f32)
                 .prop_map(move |(r, g, b)| Vec3::splat(0.3) + contrast * Vec3::new(r, g, b));
@@ -73,10 +74,13 @@ fn cells() -> impl Strategy<Value = (Charset, (u32, u32), Vec<Vec3>)> {
     )
 }
 
-fn fit_for(eye: Eye, charset: Charset, (across, down): (u32, u32), light: &[Vec3]) -> Fitted {
+fn fitter(eye: Eye, charset: Charset, (across, down): (u32, u32)) -> Fitter {
     let style = Style { charset, depth: ColorDepth::Truecolor, ..Style::PLAIN };
-    let fitter = Fitter::new(&style, eye, CellSamples { across, down });
-    fitter.fit(light, &mut FitMemory::default(), None)
+    Fitter::new(&style, eye, CellSamples { across, down })
+}
+
+fn fit_for(eye: Eye, charset: Charset, grid: (u32, u32), light: &[Vec3]) -> Fitted {
+    fitter(eye, charset, grid).fit(light, &mut FitMemory::default(), None)
 }
 
 fn fit(charset: Charset, grid: (u32, u32), light: &[Vec3]) -> Fitted {
@@ -167,8 +171,7 @@ proptest! {
 
     #[test]
     fn a_glyph_that_is_as_good_stays((charset, grid, light) in cells(), noise in prop::collection::vec(-1e-3..1e-3_f32, 96)) {
-        let style = Style { charset, depth: ColorDepth::Truecolor, ..Style::PLAIN };
-        let fitter = Fitter::new(&style, Eye::MOVING, CellSamples { across: grid.0, down: grid.1 });
+        let fitter = fitter(Eye::MOVING, charset, grid);
         let mut memory = FitMemory::default();
         let first = fitter.fit(&light, &mut memory, Some(&Fitted::NONE));
         let next: Vec<Vec3> = light.iter().zip(&noise).map(|(&light, &noise)| light + noise).collect();
@@ -188,17 +191,14 @@ proptest! {
 #[test]
 fn what_a_mask_shows_exactly_is_shown_by_it() {
     let (dark, bright) = (Vec3::splat(0.1), Vec3::new(0.9, 0.5, 0.2));
-    for charset in
-        [Charset::Half, Charset::Quadrant, Charset::Sextant, Charset::Octant, Charset::Block]
-    {
+    for charset in CHARSETS {
         for family in &repertoire(charset).families {
             // A grid of samples that every bin is a whole number of.
             let grid = (8, 24);
             for mask in &family.masks {
-                let light: Vec<Vec3> = filled(family, mask.bits, grid)
-                    .iter()
-                    .map(|&filled| if filled > 0.5 { bright } else { dark })
-                    .collect();
+                let filled = filled(family, mask.bits, grid);
+                let light = filled.iter().map(|&part| if part > 0.5 { bright } else { dark });
+                let light: Vec<Vec3> = light.collect();
                 let fitted = fit(charset, (8, 24), &light);
                 // Another family may have the complement, which shows the same.
                 let shown =
@@ -208,11 +208,9 @@ fn what_a_mask_shows_exactly_is_shown_by_it() {
                     let error = (*shown - expected).abs().max_element();
                     assert!(error < 1e-5, "{charset:?} {} {}", mask.glyph, fitted.glyph);
                 }
-                let [low, high] = if fitted.ink.x > fitted.paper.x {
-                    [fitted.paper, fitted.ink]
-                } else {
-                    [fitted.ink, fitted.paper]
-                };
+                let mut colors = [fitted.ink, fitted.paper];
+                colors.sort_by(|one, other| one.x.total_cmp(&other.x));
+                let [low, high] = colors;
                 assert!((low - dark).abs().max_element() < 1e-5, "{}", mask.glyph);
                 assert!((high - bright).abs().max_element() < 1e-5, "{}", mask.glyph);
             }
@@ -233,24 +231,17 @@ fn dots_are_where_it_is_lighter_and_the_farther_the_eye_the_brighter() {
             assert_eq!(fitted.glyph, glyph);
             assert_eq!(fitted.parts.as_slice(), light);
             for (bin, cover) in fitted.cover.iter().enumerate() {
-                assert!(
-                    (cover - if bits >> bin & 1 == 1 { DOT } else { 0.0 }).abs() < 1e-6,
-                    "{glyph}"
-                );
+                let expected = if bits >> bin & 1 == 1 { DOT } else { 0.0 };
+                assert!((cover - expected).abs() < 1e-6, "{glyph}");
             }
             // Where nothing is cut, the mean of looks is kept.
             let whole = light.iter().map(|&light| roots(light)).sum::<Vec3>() / 8.0;
             let shown =
                 roots(fitted.paper) + fitted.share() * (roots(fitted.ink) - roots(fitted.paper));
             let is_cut = fitted.ink.max_element() >= 1.0 || fitted.paper.min_element() <= 0.0;
-            assert!(
-                is_cut || (shown - whole).abs().max_element() < 1e-5,
-                "{glyph}: {shown} {whole}"
-            );
+            let is_kept = (shown - whole).abs().max_element() < 1e-5;
+            assert!(is_cut || is_kept, "{glyph}: {shown} {whole}");
         }
-        assert!(
-            fits.windows(2).all(|pair| luminance(pair[0].ink) <= luminance(pair[1].ink)),
-            "{glyph}"
-        );
+        assert!(fits.is_sorted_by_key(|fit| luminance(fit.ink)), "{glyph}");
     }
 }

@@ -18,6 +18,12 @@ const GEOMETRY: [Charset; 6] = [
     Charset::Block,
 ];
 
+/// The families of every charset.
+fn families() -> impl Iterator<Item = (Charset, &'static Family)> {
+    let of = |charset| repertoire(charset).families.iter().map(move |family| (charset, family));
+    GEOMETRY.into_iter().flat_map(of)
+}
+
 /// The names of the characters, from the Unicode Character Database.
 fn names() -> BTreeMap<char, &'static str> {
     let lines = include_str!("names.txt").lines().filter(|line| !line.starts_with('#'));
@@ -114,12 +120,10 @@ fn named(name: &str) -> Points {
 #[test]
 fn every_mask_is_what_its_name_says() {
     let names = names();
-    for charset in GEOMETRY {
-        for family in &repertoire(charset).families {
-            for mask in &family.masks {
-                let name = names[&mask.glyph];
-                assert_eq!(points_of(family, mask.bits), named(name), "{} {name}", mask.glyph);
-            }
+    for (_, family) in families() {
+        for mask in &family.masks {
+            let name = names[&mask.glyph];
+            assert_eq!(points_of(family, mask.bits), named(name), "{} {name}", mask.glyph);
         }
     }
 }
@@ -160,58 +164,58 @@ fn names_are_told_apart() {
 
 #[test]
 fn of_two_complements_a_family_has_one() {
-    for charset in GEOMETRY {
-        for family in &repertoire(charset).families {
-            let all = (1_u16 << family.bins()) - 1;
-            let masks: BTreeSet<_> = family.masks.iter().map(|mask| u16::from(mask.bits)).collect();
-            assert_eq!(masks.len(), family.masks.len(), "{charset:?}: a mask twice");
-            for bits in &masks {
-                assert!((1..all).contains(bits), "{charset:?}: {bits:b} of {all:b}");
-                assert!(!masks.contains(&(all - bits)), "{charset:?}: {bits:b} and its complement");
-            }
-            // Bars and lines in one direction are few of the many masks; the others are complete.
-            let expected = match (family.across, family.down, charset) {
-                (4, 1, _) => 3,
-                (1, 8, Charset::Block) | (8, 1, _) => 7 + 6,
-                (1, 8, _) => 7,
-                _ => usize::from(all / 2),
-            };
-            assert_eq!(masks.len(), expected, "{charset:?}");
+    for (charset, family) in families() {
+        let all = (1_u16 << family.bins()) - 1;
+        let masks: BTreeSet<_> = family.masks.iter().map(|mask| u16::from(mask.bits)).collect();
+        assert_eq!(masks.len(), family.masks.len(), "{charset:?}: a mask twice");
+        for bits in &masks {
+            assert!((1..all).contains(bits), "{charset:?}: {bits:b} of {all:b}");
+            assert!(!masks.contains(&(all - bits)), "{charset:?}: {bits:b} and its complement");
         }
+        // Bars and lines in one direction are few of the many masks; the others are complete.
+        let expected = match (family.across, family.down, charset) {
+            (4, 1, _) => 3,
+            (1, 8, Charset::Block) | (8, 1, _) => 7 + 6,
+            (1, 8, _) => 7,
+            _ => usize::from(all / 2),
+        };
+        assert_eq!(masks.len(), expected, "{charset:?}");
     }
 }
 
 #[test]
 fn covers_are_the_filled_part_of_each_part() {
-    for charset in GEOMETRY {
-        for family in &repertoire(charset).families {
-            for mask in &family.masks {
-                let filled = points_of(family, mask.bits);
-                for (part, &cover) in mask.cover.iter().enumerate() {
-                    let inside = points(|x, y| (x / 4, y / 6) == (part % 2, part / 2));
-                    let count = both(&filled, &inside).iter().filter(|&&filled| filled).count();
-                    let expected = count as f32 / (WIDTH * HEIGHT / 8) as f32;
-                    assert!((cover - expected).abs() < 1e-6, "{} part {part}: {cover}", mask.glyph);
-                }
-                let area = mask.cover.iter().sum::<f32>() / 8.0;
-                let filled = mask.bits.count_ones() as f32 / family.bins() as f32;
-                assert!((area - filled).abs() < 1e-6, "{}: {area}", mask.glyph);
+    for (_, family) in families() {
+        for mask in &family.masks {
+            let filled = points_of(family, mask.bits);
+            for (part, &cover) in mask.cover.iter().enumerate() {
+                let inside = points(|x, y| (x / 4, y / 6) == (part % 2, part / 2));
+                let count = both(&filled, &inside).iter().filter(|&&filled| filled).count();
+                let expected = count as f32 / (WIDTH * HEIGHT / 8) as f32;
+                assert!((cover - expected).abs() < 1e-6, "{} part {part}: {cover}", mask.glyph);
             }
+            let area = mask.cover.iter().sum::<f32>() / 8.0;
+            let filled = mask.bits.count_ones() as f32 / family.bins() as f32;
+            assert!((area - filled).abs() < 1e-6, "{}: {area}", mask.glyph);
         }
     }
 }
 
 /// What a charset can fill, or leave.
 fn shapes(charset: Charset) -> BTreeSet<Vec<bool>> {
-    let families = &repertoire(charset).families;
-    let masks =
-        families.iter().flat_map(|family| family.masks.iter().map(move |mask| (family, mask)));
-    masks
-        .flat_map(|(family, mask)| {
+    let mut shapes = BTreeSet::new();
+    for family in &repertoire(charset).families {
+        for mask in &family.masks {
             let filled = points_of(family, mask.bits);
-            [filled.to_vec(), filled.map(|filled| !filled).to_vec()]
-        })
-        .collect()
+            shapes.extend([filled.to_vec(), filled.map(|filled| !filled).to_vec()]);
+        }
+    }
+    shapes
+}
+
+fn glyphs(charset: Charset) -> impl Iterator<Item = char> {
+    let families = repertoire(charset).families.iter();
+    families.flat_map(|family| family.masks.iter().map(|mask| mask.glyph))
 }
 
 #[test]
@@ -232,20 +236,10 @@ fn a_finer_charset_has_what_the_coarser_has() {
 #[test]
 fn no_charset_has_glyphs_of_a_finer_one() {
     // What `auto` writes is in every font.
-    let half = repertoire(Charset::Half);
-    let glyphs: String = half
-        .families
-        .iter()
-        .flat_map(|family| family.masks.iter().map(|mask| mask.glyph))
-        .collect();
-    assert_eq!(glyphs, "▀▌");
-    let newest = |charset: Charset| {
-        let families = repertoire(charset).families.iter();
-        families.flat_map(|family| family.masks.iter().map(|mask| mask.glyph)).max()
-    };
-    assert!(newest(Charset::Quadrant) <= Some('▟'));
+    assert_eq!(glyphs(Charset::Half).collect::<String>(), "▀▌");
+    assert!(glyphs(Charset::Quadrant).max() <= Some('▟'));
     // The first of Symbols for Legacy Computing is in Unicode 13, and so are all of its sextants.
-    assert!(newest(Charset::Sextant) <= Some('🬻'));
+    assert!(glyphs(Charset::Sextant).max() <= Some('🬻'));
     assert_eq!(Charset::value_variants().len(), GEOMETRY.len() + 1, "ASCII is no geometry");
 }
 

@@ -11,11 +11,9 @@ fn halves_and_means(apart: f32) -> [Vec<Fitted>; 2] {
     let halves: Vec<Fitted> = (0..200)
         .map(|shade| 0.3 + 0.003 * shade as f32)
         .map(|lightness| Fitted {
-            glyph: '▀',
-            cover: [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0],
             ink: grey(lightness + apart / 2.0),
             paper: grey(lightness - apart / 2.0),
-            ..Fitted::NONE
+            ..Fitted::UPPER
         })
         .collect();
     let means = halves.iter().map(|fit| {

@@ -36,13 +36,8 @@ fn pictures(range: Range<f32>) -> impl Strategy<Value = (usize, Vec<Fitted>)> {
 
 fn corrected(fits: &[Fitted], columns: usize, rows: Range<usize>) -> Vec<[Vec3; 2]> {
     let mut corrected = Vec::new();
-    Residual::default().correct(
-        fits,
-        columns,
-        rows,
-        Handing::new(1.0, Charset::Half),
-        &mut corrected,
-    );
+    let handing = Handing::new(1.0, Charset::Half);
+    Residual::default().correct(fits, columns, rows, handing, &mut corrected);
     corrected
 }
 
@@ -64,7 +59,7 @@ proptest! {
         let rows = fits.len() / columns;
         // Halves: each of their colours has parts of its own.
         for fit in &mut fits {
-            *fit = shown(Fitted { cover: [1.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0], ..*fit });
+            *fit = shown(Fitted { cover: Fitted::UPPER.cover, ..*fit });
         }
         let lacking: Vec<Fitted> =
             fits.iter().map(|fit| Fitted { parts: fit.parts.map(|part| part + lack), ..*fit }).collect();

@@ -1,6 +1,7 @@
 use super::*;
 use crate::scene::builtin::builtin;
 use crate::structure::scene::SceneStructures;
+use crate::structure::search::Tracing;
 use crate::style::Aids;
 use crate::threads::Threads;
 use crate::view::Lens;
@@ -8,12 +9,7 @@ use spherule_kernel::{Level, Sphere, Vec3};
 use std::convert::Infallible;
 use std::f64::consts::PI;
 
-const VIEW: View = View {
-    eye: Vec3::new(0.0, 0.0, 5.0),
-    target: Vec3::ZERO,
-    up: Vec3::Y,
-    lens: Lens::Parallel { height: 4.0 },
-};
+const VIEW: View = View { lens: Lens::Parallel { height: 4.0 }, ..View::FRONT };
 
 /// The rows of a picture.
 fn rows(

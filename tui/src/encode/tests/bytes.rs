@@ -3,9 +3,14 @@
 use super::*;
 
 fn one_line(cells: &[Cell]) -> CellGrid {
-    let mut grid = CellGrid::new(cells.len().try_into().expect("short"), 1);
-    grid.cells_mut().copy_from_slice(cells);
-    grid
+    grid_of(cells.len().try_into().expect("short"), 1, cells)
+}
+
+/// The encoder of a terminal that shows a picture, and room for what comes next.
+fn showing(grid: &CellGrid) -> (Encoder, Vec<u8>) {
+    let mut encoder = Encoder::new();
+    encoder.encode(grid, &mut Vec::new());
+    (encoder, Vec::new())
 }
 
 fn encoded(cells: &[Cell]) -> String {
@@ -74,9 +79,7 @@ fn a_row_is_sent_by_itself() {
 #[test]
 fn a_row_by_itself_is_exact() {
     let blank = |level| Cell { background: Color::Rgb([level; 3]), ..Cell::BLANK };
-    let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
-    encoder.encode(&one_line(&[blank(128)]), &mut bytes);
-    bytes.clear();
+    let (mut encoder, mut bytes) = showing(&one_line(&[blank(128)]));
     encoder.encode_row(&one_line(&[blank(129)]), 0, &mut bytes);
     assert_eq!(bytes, b"\x1b[H\x1b[48;2;129;129;129m \x1b[m");
 }
@@ -96,9 +99,7 @@ fn a_screen_is_cleared_unless_it_is_known() {
 #[test]
 fn what_was_drawn_over_is_written_again() {
     let lines = written(&[" bc", "def"]);
-    let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
-    encoder.encode(&lines, &mut bytes);
-    bytes.clear();
+    let (mut encoder, mut bytes) = showing(&lines);
     encoder.covered(1, &lines);
     encoder.encode(&lines, &mut bytes);
     assert_eq!(bytes, b"\x1b[;2Hbc");
@@ -118,9 +119,12 @@ fn between(from: &CellGrid, to: &CellGrid) -> String {
     String::from_utf8(bytes).expect("UTF-8")
 }
 
+fn frame(body: &str) -> String {
+    format!("\x1b[?2026h{body}\x1b[?2026l")
+}
+
 #[test]
 fn the_cursor_goes_the_shortest_way() {
-    let frame = |body: &str| format!("\x1b[?2026h{body}\x1b[?2026l");
     assert_eq!(changes(&["abc", "def"], &["abc", "def"]), "");
     assert_eq!(changes(&["abc", "def"], &["Abc", "def"]), frame("\x1b[HA"));
     assert_eq!(changes(&["abc", "def"], &["abc", "dEf"]), frame("\x1b[2;2HE"));
@@ -140,12 +144,11 @@ fn a_mark_is_inverse_without_a_colour_and_leaves_nothing_behind() {
     let line = |text: &str, marked: Option<u16>| {
         let mut grid = written(&[text]);
         if let Some(column) = marked {
-            grid.mark(column, 0);
+            grid.set_mark(Some((column, 0)));
         }
         grid
     };
     let moved = |from, to| between(&line("abc", from), &line("abc", to));
-    let frame = |body: &str| format!("\x1b[?2026h{body}\x1b[?2026l");
     assert_eq!(moved(None, Some(1)), frame("\x1b[;2H\x1b[7mb\x1b[m"));
     assert_eq!(moved(Some(0), Some(1)), frame("\x1b[Ha\x1b[7mb\x1b[m"));
     assert_eq!(moved(Some(1), None), frame("\x1b[;2Hb"));
@@ -169,9 +172,7 @@ fn the_last_cell_does_not_scroll() {
 
 #[test]
 fn a_new_size_is_drawn_in_full() {
-    let mut encoder = Encoder::new();
-    encoder.encode(&CellGrid::new(4, 2), &mut Vec::new());
-    let mut bytes = Vec::new();
+    let (mut encoder, mut bytes) = showing(&CellGrid::new(4, 2));
     encoder.encode(&CellGrid::new(3, 2), &mut bytes);
     assert!(bytes.windows(4).any(|piece| piece == b"\x1b[2J"));
     let mut empty = Vec::new();
@@ -198,10 +199,8 @@ fn cells_left_for_the_next_frame_are_not_painted_over() {
     let line =
         |glyph, colors: [u8; 4]| one_line(&colors.map(|color| ink(glyph, Color::Ansi256(color))));
     let (before, mut after) = (line('a', [1, 1, 1, 1]), line('b', [2, 3, 4, 5]));
-    after.mark(3, 0);
-    let (mut encoder, mut bytes) = (Encoder::new(), Vec::new());
-    encoder.encode(&before, &mut bytes);
-    bytes.clear();
+    after.set_mark(Some((3, 0)));
+    let (mut encoder, mut bytes) = showing(&before);
     encoder.encode_part(&after, Economy { tolerance: 0.0, most_bytes: 1 }, &mut bytes);
     let shown = encoder.shown().expect("something").cells();
     assert_eq!(shown[0], after.cells()[0]);

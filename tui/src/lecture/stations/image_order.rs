@@ -2,7 +2,7 @@
 
 use crate::lecture::canvas::{Canvas, Role, letter};
 use crate::lecture::few::Few;
-use crate::lecture::pixels::{Pixel, Pixels};
+use crate::lecture::pixels::Pixels;
 use crate::lecture::station::{Knob, Numbers, Source, Station, decimals, number};
 use spherule_kernel::{Exact, Hit, Ray, roots};
 
@@ -35,10 +35,7 @@ fn draw([done, _]: Numbers, canvas: &mut Canvas) -> String {
     let (hits, tests) = few.image_order(done + 1);
     let (ix, iy) = few.place(done);
     let pixels = Pixels::beside(canvas, STATION.text, SIZE);
-    pixels.draw(canvas, |x, y| match hits.get((y * SIZE.0 + x) as usize) {
-        Some(hit) => Pixel::of_sphere(few.shown(*hit), letter),
-        None => Pixel::WAITING,
-    });
+    pixels.draw(canvas, |x, y| few.seen(&hits, x, y));
     pixels.point_at(canvas, ix, iy);
     canvas.write(0, pixels.rows(), "[ ] this pixel   . not computed yet", Role::Faint);
 

@@ -38,19 +38,17 @@ fn draw(ends: Numbers, canvas: &mut Canvas) -> String {
 
     let (columns, rows) = (canvas.columns(), canvas.rows());
     let chart = Chart::new((0, 0), (columns - STATION.text, rows - 6), SHOWN, [-1.9, 3.0]);
-    chart.circle(canvas, &sphere, Role::Sphere);
-    let end = |t: f32| ray.at(t.clamp(SHOWN[0], SHOWN[1]));
-    chart.dots(canvas, [end(SHOWN[0]), end(SHOWN[1])], Role::Faint);
-    if t_min <= t_max {
-        chart.line(canvas, [end(t_min), end(t_max)], Role::Ray);
-    }
-    chart.mark(canvas, ray.origin, "o p", Role::Ray);
     // The number line, below, in the same scale.
     let axis = Chart::new((0, rows - 6), (columns - STATION.text, 6), SHOWN, [-1.0, 1.0]);
-    axis.dots(canvas, [end(SHOWN[0]), end(SHOWN[1])], Role::Faint);
-    if t_min <= t_max {
-        axis.line(canvas, [end(t_min), end(t_max)], Role::Ray);
+    chart.circle(canvas, &sphere, Role::Sphere);
+    let end = |t: f32| ray.at(t.clamp(SHOWN[0], SHOWN[1]));
+    for chart in [chart, axis] {
+        chart.dots(canvas, [end(SHOWN[0]), end(SHOWN[1])], Role::Faint);
+        if t_min <= t_max {
+            chart.line(canvas, [end(t_min), end(t_max)], Role::Ray);
+        }
     }
+    chart.mark(canvas, ray.origin, "o p", Role::Ray);
     axis.mark(canvas, end(t_min), "[", Role::Ray);
     axis.mark(canvas, end(t_max), "]", Role::Ray);
     let both = roots(Exact, &ray, &sphere);

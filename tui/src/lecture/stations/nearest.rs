@@ -2,7 +2,7 @@
 
 use crate::lecture::canvas::{Canvas, letter};
 use crate::lecture::few::Few;
-use crate::lecture::pixels::{Pixel, Pixels};
+use crate::lecture::pixels::Pixels;
 use crate::lecture::station::{Knob, Numbers, Source, Station, number};
 use spherule_kernel::{Exact, Intersect, Ray, SphereList, roots};
 
@@ -36,11 +36,10 @@ fn draw([right, down]: Numbers, canvas: &mut Canvas) -> String {
         .zip((SIZE.1 / 2).checked_add_signed(down))
         .unwrap_or_default();
     let pixels = Pixels::beside(canvas, STATION.text, SIZE);
-    pixels
-        .draw(canvas, |x, y| Pixel::of_sphere(few.shown(hits[(y * SIZE.0 + x) as usize]), letter));
+    pixels.draw(canvas, |x, y| few.seen(&hits, x, y));
     pixels.point_at(canvas, ix, iy);
 
-    let pixel = (iy * SIZE.0 + ix) as usize;
+    let pixel = few.pixel(ix, iy);
     let mut ray = few.ray(pixel);
     let mut text = format!(
         "the ray of pixel ({ix}, {iy})\nt_min = {}  t_max = {}\n\n",

@@ -36,7 +36,7 @@ fn draw([done, reversed]: Numbers, canvas: &mut Canvas) -> String {
     let pixels = Pixels::beside(canvas, STATION.text, SIZE);
     // What the last sphere wrote is in capitals.
     pixels.draw(canvas, |x, y| {
-        let pixel = (y * SIZE.0 + x) as usize;
+        let pixel = few.pixel(x, y);
         let is_new = hits[pixel] != before[pixel];
         Pixel::of_sphere(few.shown(hits[pixel]), |index| {
             if is_new { letter(index) } else { letter(index).to_ascii_lowercase() }

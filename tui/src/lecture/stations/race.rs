@@ -1,8 +1,8 @@
 //! Both orders at once, by the number of tests that they have taken.
 
-use crate::lecture::canvas::{Canvas, Role, letter};
-use crate::lecture::few::Few;
-use crate::lecture::pixels::{Pixel, Pixels};
+use crate::lecture::canvas::{Canvas, Role};
+use crate::lecture::few::{COUNT, Few};
+use crate::lecture::pixels::Pixels;
 use crate::lecture::station::{Knob, Numbers, Source, Station};
 use crate::structure::object_order::Counts;
 use spherule_kernel::{Hit, Writes};
@@ -40,7 +40,7 @@ struct Racer {
 }
 
 fn image_order(few: &Few, budget: u64) -> Racer {
-    let pixels = (budget as usize / few.count()).min(few.pixels());
+    let pixels = (budget as usize / COUNT).min(few.pixels());
     let (hits, tests) = few.image_order(pixels);
     let writes = Writes { stored: hits.len() as u64, overwritten: 0 };
     let is_done = pixels == few.pixels();
@@ -49,15 +49,15 @@ fn image_order(few: &Few, budget: u64) -> Racer {
 
 /// Object order, with as many spheres as there are tests for.
 fn object_order(few: &Few, budget: u64) -> Racer {
-    let drawn = (0..=few.count()).map(|spheres| few.object_order(spheres));
+    let drawn = (0..=COUNT).map(|spheres| few.object_order(spheres));
     let affordable = drawn.take_while(|(_, counts)| counts.tests <= budget);
     let (spheres, (hits, counts)) = affordable.enumerate().last().unwrap_or_default();
-    Racer { title: "object order", hits, counts, is_done: spheres == few.count() }
+    Racer { title: "object order", hits, counts, is_done: spheres == COUNT }
 }
 
 fn draw([steps, _]: Numbers, canvas: &mut Canvas) -> String {
     let few = Few::new(SIZE, false);
-    let all = (few.pixels() * few.count()) as u64;
+    let all = (few.pixels() * COUNT) as u64;
     let budget = all * u64::from(steps.unsigned_abs()) / u64::from(STEPS.unsigned_abs());
     let columns = canvas.columns();
     canvas.write(0, 0, &format!("{budget} tests each, of at most {all}"), Role::Ray);
@@ -66,12 +66,7 @@ fn draw([steps, _]: Numbers, canvas: &mut Canvas) -> String {
     for (left, racer) in [(0, image_order(&few, budget)), (columns / 2, object_order(&few, budget))]
     {
         let Racer { title, hits, counts, is_done } = racer;
-        Pixels::new((left, 1), room, SIZE).draw(canvas, |ix, iy| {
-            match hits.get((iy * SIZE.0 + ix) as usize) {
-                Some(hit) => Pixel::of_sphere(few.shown(*hit), letter),
-                None => Pixel::WAITING,
-            }
-        });
+        Pixels::new((left, 1), room, SIZE).draw(canvas, |ix, iy| few.seen(&hits, ix, iy));
         let end = if is_done { "done" } else { "not done" };
         canvas.write(left + 1, below, &format!("{title}: {end}"), Role::Hit);
         let Counts { tests, writes } = counts;

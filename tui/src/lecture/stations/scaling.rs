@@ -37,23 +37,19 @@ struct Rendered {
 }
 
 fn render(few: &Few, factor: f32) -> Rendered {
-    let rays: Vec<_> = (0..few.pixels()).map(|pixel| few.ray(pixel)).collect();
-    let rays: Vec<_> =
-        rays.iter().map(|ray| Ray { direction: factor * ray.direction, ..*ray }).collect();
+    let scaled = |ray: Ray| Ray { direction: factor * ray.direction, ..ray };
+    let rays: Vec<_> = (0..few.pixels()).map(|pixel| scaled(few.ray(pixel))).collect();
     let mut hits = vec![None; rays.len()];
     few.list.closest_hits(Exact, &rays, &mut hits);
     let byte = |(ray, hit): (&Ray, &Option<Hit>)| {
-        let Some(hit) = hit else { return 0 };
-        let sphere = few.list.spheres().get(hit.sphere as usize).unwrap_or(NOTHING.into());
-        let cosine = surface(Exact, ray, hit.t, &sphere).normal.dot(LIGHT);
+        let met = hit.and_then(|hit| Some((hit.t, few.list.spheres().get(hit.sphere as usize)?)));
+        let Some((t, sphere)) = met else { return 0 };
+        let cosine = surface(Exact, ray, t, &sphere).normal.dot(LIGHT);
         (30.0 + 225.0 * cosine.max(0.0)) as u8
     };
     let bytes = rays.iter().zip(&hits).map(byte).collect();
     Rendered { hits, bytes }
 }
-
-/// A sphere that nothing hits.
-const NOTHING: [f32; 4] = [0.0, 0.0, 0.0, -1.0];
 
 /// a = 2^twos 10^tens.
 fn draw([twos, tens]: Numbers, canvas: &mut Canvas) -> String {
@@ -68,7 +64,7 @@ fn draw([twos, tens]: Numbers, canvas: &mut Canvas) -> String {
     ] {
         canvas.write(left + 1, 0, &title, Role::Ray);
         Pixels::new((left, 1), room, SIZE).draw(canvas, |ix, iy| {
-            let pixel = (iy * SIZE.0 + ix) as usize;
+            let pixel = few.pixel(ix, iy);
             let glyph = RAMP[usize::from(picture.bytes[pixel]) * RAMP.len() / 256];
             match few.shown(picture.hits[pixel]) {
                 Some(sphere) => Pixel::sign(char::from(glyph), Role::Nth(sphere)),

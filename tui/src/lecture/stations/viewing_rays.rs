@@ -4,7 +4,7 @@ use crate::lecture::canvas::{Canvas, Role};
 use crate::lecture::chart::Chart;
 use crate::lecture::station::{Knob, Numbers, Source, Station, number, vector};
 use crate::view::{Lens, LensKind, View, with_projection};
-use spherule_kernel::{Exact, Hit, Intersect, Projection, Ray, Sphere, SphereList, Vec3};
+use spherule_kernel::{Exact, Intersect, Projection, Ray, Sphere, SphereList, Vec3};
 
 pub(super) const STATION: Station = Station {
     name: "viewing-rays",
@@ -47,18 +47,16 @@ fn draw([kind, row]: Numbers, canvas: &mut Canvas) -> String {
     let rays = (0..ROWS).map(|iy| camera.get_ray(0, iy)).collect::<Vec<Ray>>();
     let chart = Chart::beside(canvas, STATION.text, [-4.5, 5.0], [-3.4, 3.4]);
     chart.circle(canvas, &sphere, Role::Sphere);
-    let mut white = Vec::new();
-    for (iy, ray) in (0..).zip(&rays) {
-        let hit = list.closest_hit(Exact, ray);
-        white.push(hit.is_some());
+    let hits: Vec<_> = rays.iter().map(|ray| list.closest_hit(Exact, ray)).collect();
+    for (iy, (ray, hit)) in (0..).zip(rays.iter().zip(&hits)) {
         let role = if iy == row { Role::Ray } else { Role::Faint };
         match hit {
-            Some(Hit { t, .. }) => chart.line(canvas, [ray.origin, ray.at(t)], role),
+            Some(hit) => chart.line(canvas, [ray.origin, ray.at(hit.t)], role),
             None => chart.half_line(canvas, ray.origin, ray.direction, role),
         }
     }
-    for (iy, ray) in (0_u32..).zip(&rays) {
-        if let Some(hit) = list.closest_hit(Exact, ray) {
+    for (iy, (ray, hit)) in (0_u32..).zip(rays.iter().zip(&hits)) {
+        if let Some(hit) = hit {
             chart.mark(canvas, ray.at(hit.t), "*", Role::Hit);
         }
         // A plane before the eye, or that of the origins.
@@ -73,8 +71,8 @@ fn draw([kind, row]: Numbers, canvas: &mut Canvas) -> String {
     }
 
     let left = canvas.columns() - STATION.text + 1;
-    for (iy, is_white) in (0..).zip(white) {
-        let text = format!("{iy} {}", if is_white { "white ##" } else { "black" });
+    for (iy, hit) in (0..).zip(&hits) {
+        let text = format!("{iy} {}", if hit.is_some() { "white ##" } else { "black" });
         let role = if iy == row { Role::Ray } else { Role::Plain };
         canvas.write(left, 11 + iy, &text, role);
     }
@@ -83,9 +81,8 @@ fn draw([kind, row]: Numbers, canvas: &mut Canvas) -> String {
         Projection::Parallel { .. } => "parallel",
     };
     let ray = rays[row as usize];
-    let answer = list
-        .closest_hit(Exact, &ray)
-        .map_or("nothing".to_owned(), |hit| format!("at t = {}", number(hit.t)));
+    let answer =
+        hits[row as usize].map_or("nothing".to_owned(), |hit| format!("at t = {}", number(hit.t)));
     format!(
         "\
 projection: {name}

@@ -1,10 +1,10 @@
 //! What a station draws, and its text: nothing is cut, and nothing is written over.
 
-use super::TURNS;
+use super::{TURNS, named};
 use crate::lecture::canvas::Canvas;
 use crate::lecture::frame::{self, LEAST};
 use crate::lecture::station::{Numbers, Station};
-use crate::lecture::stations::{STATIONS, station};
+use crate::lecture::stations::STATIONS;
 use crate::style::Style;
 use std::collections::HashSet;
 
@@ -31,13 +31,11 @@ fn check_room(station: &Station, numbers: Numbers) {
     let (columns, rows) = frame::room(LEAST);
     let mut canvas = Canvas::new(columns, rows, Style::PLAIN);
     let text = (station.draw)(numbers, &mut canvas);
-    let cells = canvas.into_cells();
-    let picture: Vec<Vec<char>> =
-        (0..rows).map(|row| cells.row(row).iter().map(|cell| cell.glyph).collect()).collect();
+    let picture = canvas.into_cells().lines();
     let case = || format!("{} {numbers:?}:\n{text}", station.name);
     if station.text == 0 {
         // What reaches the last column may be cut.
-        assert!(picture.iter().all(|row| row.ends_with(&[' '])), "{}", case());
+        assert!(picture.iter().all(|row| row.ends_with(' ')), "{}", case());
         return;
     }
     let left = usize::from(columns) - station.text as usize + 1;
@@ -45,14 +43,14 @@ fn check_room(station: &Station, numbers: Numbers) {
     for (line, row) in text.lines().zip(&picture) {
         assert!(left + line.len() <= row.len(), "{line:?} is cut: {}", case());
         let below = &row[left..left + line.len()];
-        assert!(below.iter().all(|&glyph| glyph == ' '), "{line:?} over {below:?}: {}", case());
+        assert!(below.trim().is_empty(), "{line:?} over {below:?}: {}", case());
     }
 }
 
 /// Both ends of the interval are drawn on the number line, wherever they are.
 #[test]
 fn the_ends_of_an_interval_are_seen() {
-    let station = &STATIONS[station("interval").expect("a station")];
+    let station = named("interval");
     let (columns, rows) = frame::room(LEAST);
     let [least, greatest] = [-8, 32];
     for ends in [[least, greatest], [greatest, greatest], [least, least], [0, 28]] {

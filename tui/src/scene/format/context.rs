@@ -25,6 +25,3 @@ pub(in crate::scene) struct Context {
     /// Whether more may be written to the file: then its end need not be the end of a frame.
     pub(in crate::scene) follows: bool,
 }
-
-/// The longest text that is read as a whole, in bytes: some half a million spheres.
-pub(in crate::scene) const LONGEST_TEXT: usize = 64 << 20;

@@ -4,11 +4,12 @@
 //! how wide a number is (GROMACS reference manual, "gro file format").
 
 use super::Context;
-use super::words::{Words, count, excerpt, single};
+use super::stated::Stated;
+use super::words::{Word, Words, count, excerpt};
 use crate::scene::Scene;
 use crate::scene::attributes::Naming;
 use crate::scene::input::{Input, Line};
-use crate::scene::number::number;
+use crate::scene::number::{number, parsed};
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use crate::scene::symbols::Symbols;
@@ -39,19 +40,11 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     if has_blanks && count(title.trimmed()).is_some() {
         input.give_back();
     }
-    let line = input.expect("a number of atoms")?;
-    let (atoms, first) = match count(line.trimmed()) {
-        Some(atoms) => (atoms, line.number),
-        None => {
-            return Err(line.error(0, format!("{} is no number of atoms", excerpt(line.trimmed()))));
-        }
-    };
+    let stated = Stated::atoms(&input.expect("a number of atoms")?)?;
     let mut particles = Particles { symbols: Symbols::AtomNames, ..Particles::from(context.fixed) };
     let (mut width, mut velocities) = (0, false);
-    for atom in 0..atoms {
-        let ends =
-            format!("the file ends after {atom} of the {atoms} atoms that line {first} says");
-        let Some(line) = input.line()? else { return Err(input.ends(ends)) };
+    for atom in 0..stated.count {
+        let line = stated.next(input, atom)?;
         if atom == 0 {
             width = width_of(&line)?;
         }
@@ -60,8 +53,9 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
             return Err(line.error(line.bytes.len(), format!("the line ends before column {end}")));
         };
         let at = |axis: usize, name| {
-            let from = COORDINATES + axis * width;
-            single(&line, from, fixed[from..from + width].trim_ascii(), name, ANGSTROM)
+            let byte = COORDINATES + axis * width;
+            let bytes = fixed[byte..byte + width].trim_ascii();
+            Word { line, byte, bytes }.single(name, ANGSTROM)
         };
         let center = Vec3::new(at(0, "x")?, at(1, "y")?, at(2, "z")?);
         particles.center(center.as_dvec3());
@@ -69,17 +63,12 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
         particles.kind(name, line.number);
         particles.naming(Naming::Name).push(name);
         particles.naming(Naming::Residue).push(residue);
-        let residue_number =
-            std::str::from_utf8(fixed[..5].trim_ascii()).ok().and_then(|text| text.parse().ok());
-        particles.residue_numbers.push(residue_number.unwrap_or(0));
+        particles.residue_numbers.push(parsed(fixed[..5].trim_ascii()).unwrap_or(0));
         velocities |= !line.bytes[end..].trim_ascii().is_empty();
     }
-    if input.is_over()? {
-        return Err(input.ends("the file ends before the box"));
-    }
-    check_box(input.expect("the box")?, atoms, first)?;
-    if atoms == 0 {
-        return Err(ReadError::at(input.source(), first, 1, "no atoms").of_empty_frame());
+    check_box(input.expect("the box")?, stated)?;
+    if stated.count == 0 {
+        return Err(stated.none(input.source(), "no atoms"));
     }
     if velocities {
         context.notes.note("velocities are ignored");
@@ -88,16 +77,16 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
 }
 
 /// The box may be blank, wide numbers may touch, and words may follow three numbers; but it is no further atom.
-fn check_box(line: Line<'_>, atoms: usize, first: usize) -> Result<(), ReadError> {
+fn check_box(line: Line<'_>, stated: Stated) -> Result<(), ReadError> {
     let mut words = Words::of(line);
     for _ in 0..3 {
-        let Some((byte, word)) = words.next() else { break };
-        if number(word).is_none() && word.iter().any(u8::is_ascii_alphabetic) {
-            let what = format!(
-                "{} in the box is no number; the number of atoms in line {first} is {atoms}",
-                excerpt(word)
-            );
-            return Err(line.error(byte, what));
+        let Some(word) = words.next() else { break };
+        if number(word.bytes).is_none() && word.bytes.iter().any(u8::is_ascii_alphabetic) {
+            let Stated { count, line, .. } = stated;
+            return Err(word.error(format!(
+                "{} in the box is no number; the number of atoms in line {line} is {count}",
+                excerpt(word.bytes)
+            )));
         }
     }
     Ok(())

@@ -8,21 +8,21 @@ mod row;
 mod rows;
 
 use super::context::Context;
+use super::locations::Locations;
 use super::mmcif_columns::Columns;
-use super::words::coordinate;
+use super::words::Word;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
 use crate::scene::fixed::Fixed;
 use crate::scene::input::{Input, Line};
 use crate::scene::notes::Notes;
-use crate::scene::number::number;
+use crate::scene::number::{number_or_nan, parsed};
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use component::{CATEGORY, Component, Heading};
 use glam::DVec3;
 use row::Row;
 use rows::{begins, ends_loop, read_rows};
-use std::collections::HashSet;
 
 /// Reads the next model.
 ///
@@ -153,46 +153,35 @@ fn find_atoms(
     if context.follows && (component.is_some() || !is_first) {
         return Err(input.ends("the file ends before a further table of atoms"));
     }
-    match component {
-        Some(component) => Ok(Found::Component(Box::new(component))),
-        None if !is_first => Ok(Found::Nothing),
+    let what = match component {
+        Some(component) => return Ok(Found::Component(Box::new(component))),
+        None if !is_first => return Ok(Found::Nothing),
         None if fractions => {
-            let what = "atoms in fractions of a cell: only _atom_site.Cartn_x, _y, _z are read";
-            Err(ReadError::whole(input.source(), what))
+            "atoms in fractions of a cell: only _atom_site.Cartn_x, _y, _z are read"
         }
         None if unplaced => {
-            let what = "components without positions: _chem_comp_atom has neither model_Cartn_x nor pdbx_model_Cartn_x_ideal nor x";
-            Err(ReadError::whole(input.source(), what))
+            "components without positions: _chem_comp_atom has neither model_Cartn_x nor pdbx_model_Cartn_x_ideal nor x"
         }
-        None => Err(ReadError::whole(input.source(), "no loop over _atom_site").of_end()),
-    }
+        None => return Err(ReadError::whole(input.source(), "no loop over _atom_site").of_end()),
+    };
+    Err(ReadError::whole(input.source(), what))
 }
 
 struct Atoms<'a> {
     columns: &'a Columns,
     particles: Particles,
     model: Option<Vec<u8>>,
+    locations: Locations,
+    /// The residue of the last atom that has a location.
     residue: Vec<u8>,
-    /// The names of those atoms of the residue that have locations.
-    located: HashSet<Box<[u8]>>,
-    left_out: usize,
-    scratch: Vec<u8>,
 }
 
 impl<'a> Atoms<'a> {
     fn new(columns: &'a Columns, fixed: Fixed) -> Self {
-        let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
-        let kept = vec![column("occupancy"), column("b_factor")];
+        let kept = ["occupancy", "b_factor"].map(NumberColumn::named).into();
         let particles = Particles { columns: kept, ..Particles::from(fixed) };
-        Self {
-            columns,
-            particles,
-            model: None,
-            residue: Vec::new(),
-            located: HashSet::new(),
-            left_out: 0,
-            scratch: Vec::new(),
-        }
+        let (locations, residue) = (Locations::default(), Vec::new());
+        Self { columns, particles, model: None, locations, residue }
     }
 
     /// Adds an atom; returns `false` if it is of the next model.
@@ -207,26 +196,20 @@ impl<'a> Atoms<'a> {
         let (chain, number_text, name) =
             (row.value(columns.chain), row.value(columns.residue_number), row.value(columns.name));
         if !row.value(columns.location).is_empty() {
-            self.scratch.clear();
-            let insertion = row.value(columns.insertion);
-            for part in [chain, b" ", number_text, b" ", insertion] {
-                self.scratch.extend_from_slice(part);
+            self.residue.clear();
+            for part in [chain, b" ", number_text, b" ", row.value(columns.insertion)] {
+                self.residue.extend_from_slice(part);
             }
-            if self.scratch != self.residue {
-                std::mem::swap(&mut self.scratch, &mut self.residue);
-                // A large set would take long to clear, however few names are in it.
-                self.located = HashSet::new();
-            }
-            if !self.located.insert(name.into()) {
-                self.left_out += 1;
+            self.locations.enter(&self.residue);
+            if !self.locations.is_first(name) {
                 return Ok(true);
             }
         }
         let at = |axis: usize, called: &str| {
             let word = row.word(columns.position[axis]);
             // A standard uncertainty may follow in brackets.
-            let word = word.split(|&byte| byte == b'(').next().unwrap_or_default();
-            coordinate(line, 0, word, called)
+            let bytes = word.split(|&byte| byte == b'(').next().unwrap_or_default();
+            Word { line: *line, byte: 0, bytes }.coordinate(called)
         };
         let center = DVec3::new(at(0, "Cartn_x")?, at(1, "Cartn_y")?, at(2, "Cartn_z")?);
         let particles = &mut self.particles;
@@ -236,23 +219,15 @@ impl<'a> Atoms<'a> {
         particles.naming(Naming::Residue).push(row.value(columns.residue));
         particles.naming(Naming::Chain).push(chain);
         particles.naming(Naming::Molecule).push(row.value(columns.entity));
-        let residue_number =
-            std::str::from_utf8(number_text).ok().and_then(|text| text.parse().ok());
-        particles.residue_numbers.push(residue_number.unwrap_or(0));
+        particles.residue_numbers.push(parsed(number_text).unwrap_or(0));
         for (column, kept) in columns.numbers.iter().zip(&mut particles.columns) {
-            kept.values.push(number(row.value(*column)).map_or(f32::NAN, |value| value as f32));
+            kept.values.push(number_or_nan(row.value(*column)));
         }
         Ok(true)
     }
 
     fn finish(self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
-        if self.left_out > 0 {
-            let atoms = if self.left_out == 1 { "atom is" } else { "atoms are" };
-            notes.note(format!(
-                "{} {atoms} left out: alternate locations after the first",
-                self.left_out
-            ));
-        }
+        self.locations.note(notes);
         self.particles.finish(notes, source)
     }
 }

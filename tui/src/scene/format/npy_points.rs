@@ -34,19 +34,8 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
     }
     array
         .each(input, |index, row| {
-            let center = DVec3::new(row[0], row[1], row[2]);
-            if !center.as_vec3().is_finite() {
-                return Err(format!("row {index} is at {center}: not finite in single precision"));
-            }
-            particles.center(center);
-            if let Some(&radius) = row.get(3) {
-                let radius = radius as f32;
-                if !(radius.is_finite() && radius >= 0.0) {
-                    return Err(format!("row {index} has the radius {radius}"));
-                }
-                particles.radii.push(radius);
-            }
-            Ok(())
+            let added = particles.sphere(DVec3::new(row[0], row[1], row[2]), row.get(3).copied());
+            added.map_err(|what| format!("row {index} {what}"))
         })
         .map_err(wrong)?;
     particles.finish(notes, &source)

@@ -9,18 +9,18 @@ mod autodock;
 mod symbol;
 
 use super::Context;
-use super::words::coordinate;
+use super::locations::Locations;
+use super::words::{Word, split};
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
 use crate::scene::fixed::Fixed;
 use crate::scene::input::{Input, Line};
 use crate::scene::notes::Notes;
-use crate::scene::number::number;
+use crate::scene::number::{number, number_or_nan, parsed};
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
-use crate::scene::symbols::{Symbols, of_symbol};
+use crate::scene::symbols::of_symbol;
 use glam::DVec3;
-use std::collections::HashSet;
 use symbol::{begins_left, symbol_of};
 
 /// The records that say what a picture of spheres does not show.
@@ -39,13 +39,13 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
         if record.starts_with(b"ATOM") || record.starts_with(b"HETATM") {
             atoms.add(line).map_err(|error| if is_pqr(&line) { pqr(&line) } else { error })?;
         } else if record.starts_with(b"MODEL") {
-            if !atoms.is_empty() {
+            if !atoms.particles.is_empty() {
                 has_ended = true;
                 input.give_back();
                 break;
             }
         } else if (record.starts_with(b"ENDMDL") || record.trim_ascii_end() == b"END")
-            && !atoms.is_empty()
+            && !atoms.particles.is_empty()
         {
             has_ended = true;
             break;
@@ -54,7 +54,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
         }
     }
     // What remains may be connections and no atom: then there is no further frame.
-    if atoms.is_empty() {
+    if atoms.particles.is_empty() {
         return if is_first {
             Err(ReadError::whole(input.source(), "no ATOM and no HETATM").of_end())
         } else {
@@ -71,11 +71,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
 /// The atoms of a model.
 struct Atoms {
     particles: Particles,
-    /// Chain, number and insertion of the residue of the last atom, ...
-    residue: [u8; 6],
-    /// ... and the names of those of its atoms that have locations.
-    located: HashSet<[u8; 4]>,
-    left_out: usize,
+    locations: Locations,
     /// The symbols that have been seen, and whether they are elements'.
     symbols: Vec<([u8; 2], bool)>,
     /// Whether names begin in the first column, whatever their elements, ...
@@ -86,22 +82,15 @@ struct Atoms {
 
 impl Atoms {
     fn new(fixed: Fixed) -> Self {
-        let column = |name: &str| NumberColumn { name: name.into(), values: Vec::new() };
-        let columns = vec![column("occupancy"), column("b_factor")];
+        let columns = ["occupancy", "b_factor"].map(NumberColumn::named).into();
         let particles = Particles { columns, ..Particles::from(fixed) };
         Self {
             particles,
-            residue: [0; 6],
-            located: HashSet::new(),
-            left_out: 0,
+            locations: Locations::default(),
             symbols: Vec::new(),
             are_left: false,
             undecided: Vec::new(),
         }
-    }
-
-    fn is_empty(&self) -> bool {
-        self.particles.is_empty()
     }
 
     #[inline]
@@ -110,19 +99,14 @@ impl Atoms {
         let Some(fixed) = bytes.get(..54) else {
             return Err(line.error(bytes.len(), "the line ends before column 54: no coordinates"));
         };
-        let residue = [fixed[21], fixed[22], fixed[23], fixed[24], fixed[25], fixed[26]];
         let name = [fixed[12], fixed[13], fixed[14], fixed[15]];
-        if residue != self.residue {
-            // A large set would take long to clear, however few names are in it.
-            (self.residue, self.located) = (residue, HashSet::new());
-        }
-        if fixed[16] != b' ' && !self.located.insert(name) {
-            self.left_out += 1;
+        // Its chain, number and insertion.
+        self.locations.enter(&fixed[21..27]);
+        if fixed[16] != b' ' && !self.locations.is_first(&name) {
             return Ok(());
         }
-        let at = |from: usize, axis| {
-            let word = fixed[from..from + 8].trim_ascii();
-            coordinate(&line, from, word, axis)
+        let at = |byte: usize, axis| {
+            Word { line, byte, bytes: fixed[byte..byte + 8].trim_ascii() }.coordinate(axis)
         };
         let center = DVec3::new(at(30, "x")?, at(38, "y")?, at(46, "z")?);
         self.particles.center(center);
@@ -146,15 +130,11 @@ impl Atoms {
             _ => &fixed[21..22],
         };
         particles.naming(Naming::Chain).push(chain);
-        particles
-            .residue_numbers
-            .push(residue_number([fixed[22], fixed[23], fixed[24], fixed[25]]));
-        let field = |from: usize| {
-            let word = bytes.get(from..bytes.len().min(from + 6)).unwrap_or_default().trim_ascii();
-            number(word).map_or(f32::NAN, |value| value as f32)
-        };
-        particles.columns[0].values.push(field(54));
-        particles.columns[1].values.push(field(60));
+        particles.residue_numbers.push(residue_number(fixed[22..26].trim_ascii()));
+        for (column, from) in particles.columns.iter_mut().zip([54, 60]) {
+            let field = bytes.get(from..bytes.len().min(from + 6)).unwrap_or_default();
+            column.values.push(number_or_nan(field.trim_ascii()));
+        }
         Ok(())
     }
 
@@ -193,23 +173,15 @@ impl Atoms {
         self.particles.kind(symbol, line);
     }
 
-    fn finish(mut self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
-        if self.left_out > 0 {
-            let atoms = if self.left_out == 1 { "atom is" } else { "atoms are" };
-            notes.note(format!(
-                "{} {atoms} left out: alternate locations after the first",
-                self.left_out
-            ));
-        }
-        self.particles.symbols = Symbols::Elements;
+    fn finish(self, notes: &mut Notes, source: &str) -> Result<Scene, ReadError> {
+        self.locations.note(notes);
         self.particles.finish(notes, source)
     }
 }
 
 /// Whether a line is an atom of PQR: words between spaces, of which the last five are a position, a charge and a radius.
 fn is_pqr(line: &Line<'_>) -> bool {
-    let words = line.bytes.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-    let words: Vec<&[u8]> = words.take(12).collect();
+    let words: Vec<&[u8]> = split(line.bytes).take(12).collect();
     let is_finite = |word: &&[u8]| number(word).is_some_and(f64::is_finite);
     (10..=11).contains(&words.len()) && words.iter().rev().take(5).all(is_finite)
 }
@@ -219,20 +191,14 @@ fn pqr(line: &Line<'_>) -> ReadError {
 }
 
 /// The number of a residue: four digits, or hybrid-36 from 10,000 on; 0 where it is neither.
-fn residue_number(field: [u8; 4]) -> i32 {
-    let text = field.trim_ascii();
-    if text.first().is_some_and(u8::is_ascii_alphabetic) && text.len() == 4 {
-        let value =
-            std::str::from_utf8(text).ok().and_then(|text| i32::from_str_radix(text, 36).ok());
-        let Some(value) = value else { return 0 };
-        let (digits, letters) = (10 * 36_i32.pow(3), 26 * 36_i32.pow(3));
-        return if text[0].is_ascii_uppercase() {
-            value - digits + 10_000
-        } else {
-            value - digits + letters + 10_000
-        };
+fn residue_number(text: &[u8]) -> i32 {
+    if text.len() < 4 || !text[0].is_ascii_alphabetic() {
+        return parsed(text).unwrap_or(0);
     }
-    std::str::from_utf8(text).ok().and_then(|text| text.parse().ok()).unwrap_or(0)
+    let value = std::str::from_utf8(text).ok().and_then(|text| i32::from_str_radix(text, 36).ok());
+    // Capitals are behind all digits, and small letters behind all capitals.
+    let letters = if text[0].is_ascii_uppercase() { 0 } else { 26 };
+    value.map_or(0, |value| value + (letters - 10) * 36_i32.pow(3) + 10_000)
 }
 
 #[cfg(test)]

@@ -4,13 +4,12 @@
 
 mod header;
 
-use super::words::excerpt;
+use super::words::Words;
 use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::scene::attributes::NumberColumn;
 use crate::scene::input::Input;
 use crate::scene::notes::Notes;
-use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use glam::DVec3;
@@ -81,37 +80,19 @@ fn vertices(
         .partition(|&index| names[index].list.is_none());
     notes.further_columns(kept.len().saturating_sub(MOST_KEPT) + lists.len());
     kept.truncate(MOST_KEPT);
-    let mut particles = Particles {
-        columns: kept
-            .iter()
-            .map(|&index| NumberColumn {
-                name: names[index].name.as_str().into(),
-                values: Vec::new(),
-            })
-            .collect(),
-        ..Particles::default()
-    };
+    let columns = kept.iter().map(|&index| NumberColumn::named(names[index].name.as_str()));
+    let mut particles = Particles { columns: columns.collect(), ..Particles::default() };
     let mut values = vec![0.0; names.len()];
     for vertex in 0..element.count {
         let line = row(input, encoding, element, &mut values, vertex)?;
-        let place = |what: String| match line {
-            Some(line) => ReadError::at(&source, line, 1, what),
-            None => ReadError::whole(&source, what),
-        };
         let center = DVec3::new(values[x], values[y], values[z]);
-        if !center.as_vec3().is_finite() {
-            return Err(place(format!(
-                "vertex {vertex} is at {center}: not finite in single precision"
-            )));
-        }
-        particles.center(center);
-        if let Some(radius) = radius {
-            let radius = values[radius] as f32;
-            if !(radius.is_finite() && radius >= 0.0) {
-                return Err(place(format!("vertex {vertex} has the radius {radius}")));
+        particles.sphere(center, radius.map(|radius| values[radius])).map_err(|what| {
+            let what = format!("vertex {vertex} {what}");
+            match line {
+                Some(line) => ReadError::at(&source, line, 1, what),
+                None => ReadError::whole(&source, what),
             }
-            particles.radii.push(radius);
-        }
+        })?;
         if let Some(color) = color {
             let scale = match names[color[0]].kind {
                 Scalar::Float | Scalar::Double => 255.0,
@@ -137,20 +118,14 @@ fn row(
     index: usize,
 ) -> Result<Option<usize>, ReadError> {
     if encoding == Encoding::Ascii {
-        let ends = format!("the file ends after {index} of {} elements", element.count);
-        let Some(line) = input.line()? else { return Err(input.ends(ends)) };
-        let mut words = super::words::Words::of(line);
+        let line = input
+            .line_or(|| format!("the file ends after {index} of {} elements", element.count))?;
+        let mut words = Words::of(line);
         for (property, value) in element.properties.iter().zip(values) {
-            let mut next = || {
-                let (byte, word) = words.expect(&property.name)?;
-                number(word).ok_or_else(|| {
-                    line.error(byte, format!("{} is {}: no number", property.name, excerpt(word)))
-                })
-            };
-            *value = next()?;
+            *value = words.number(&property.name)?;
             if property.list.is_some() {
                 for _ in 0..*value as usize {
-                    next()?;
+                    words.number(&property.name)?;
                 }
             }
         }

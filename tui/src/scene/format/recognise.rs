@@ -2,6 +2,7 @@
 
 use super::Format;
 use super::table::{Separator, comment, has_axes};
+use super::words::{count, split};
 use crate::scene::number::number;
 
 /// The error for an input whose format nothing tells.
@@ -74,11 +75,8 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
         return Ok(Format::Gro);
     }
     if first.starts_with(b"<") {
-        return if contains(head, b"<robot") {
-            Ok(Format::Urdf)
-        } else {
-            Err("XML, but no <robot>")
-        };
+        let is_robot = memchr::memmem::find(head, b"<robot").is_some();
+        return if is_robot { Ok(Format::Urdf) } else { Err("XML, but no <robot>") };
     }
     let mut spoken =
         lines.iter().filter(|line| !matches!(line.trim_ascii().first(), None | Some(b'#')));
@@ -130,10 +128,6 @@ fn is_xtc(head: &[u8]) -> bool {
     head.starts_with(b"\x00\x00\x07\xcb") || head.starts_with(b"\x00\x00\x07\xe7")
 }
 
-fn contains(text: &[u8], part: &[u8]) -> bool {
-    memchr::memmem::find(text, part).is_some()
-}
-
 /// A record that a PDB file begins with. Its name ends there: a column of a table may be called `SOURCE_ID`.
 fn is_record(line: &[u8]) -> bool {
     PDB.iter().any(|name| {
@@ -156,23 +150,17 @@ fn is_toml(line: &[u8]) -> bool {
 
 /// The second line is a number; the third has names in its first columns and points behind them.
 fn is_gro(lines: &[&[u8]]) -> bool {
-    let [_, count, atom, ..] = lines else { return false };
-    let is_count = super::words::count(count.trim_ascii()).is_some();
-    is_count && atom.len() >= 44 && atom[20..].iter().filter(|&&byte| byte == b'.').count() >= 3
+    let [_, atoms, atom, ..] = lines else { return false };
+    count(atoms.trim_ascii()).is_some()
+        && atom.len() >= 44
+        && atom[20..].iter().filter(|&&byte| byte == b'.').count() >= 3
 }
 
-/// Counts in the first lines, and a box.
+/// A number of atoms in the first lines.
 fn is_lammps_data(lines: &[&[u8]]) -> bool {
-    let words = |line: &[u8]| -> Vec<Vec<u8>> {
-        let text = line.split(|&byte| byte == b'#').next().unwrap_or_default();
-        text.split(u8::is_ascii_whitespace)
-            .filter(|word| !word.is_empty())
-            .map(<[u8]>::to_vec)
-            .collect()
-    };
     let says = |line: &&[u8]| {
-        let words = words(line);
-        words.len() == 2 && words[1] == b"atoms" && super::words::count(&words[0]).is_some()
+        let mut words = split(line.split(|&byte| byte == b'#').next().unwrap_or_default());
+        words.next().and_then(count).is_some() && words.eq([b"atoms"])
     };
     lines.iter().take(40).any(says)
 }
@@ -194,7 +182,7 @@ fn is_mercury(lines: &[&[u8]]) -> bool {
             return false;
         }
         match (head, words.len()) {
-            (None, values @ (6 | 8)) => match super::words::count(words[0]) {
+            (None, values @ (6 | 8)) => match count(words[0]) {
                 Some(0) => {}
                 Some(_) => head = Some(values),
                 None => return false,

@@ -12,7 +12,7 @@ mod first_line;
 mod separator;
 
 use super::Context;
-use super::words::{coordinate, count, half_diameter};
+use super::words::{Word, count};
 use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::scene::attributes::NumberColumn;
@@ -40,12 +40,10 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
     let Layout { separator, columns, header, width, has_slashes } =
         layout(input, context.columns.as_deref())?;
     context.notes.further_columns(columns.further);
-    let kept = columns.kept.iter();
-    let kept = kept.map(|(_, name)| NumberColumn { name: name.clone(), values: Vec::new() });
+    let kept = columns.kept.iter().map(|(_, name)| NumberColumn::named(name.clone()));
     let symbols = if columns.may_number_kinds { Symbols::Numbers } else { Symbols::Elements };
     let mut particles = Particles { columns: kept.collect(), symbols, ..Particles::default() };
-    let (mut fields, mut scale) = (Vec::new(), ColorScale::default());
-    let mut raw = Vec::new();
+    let (mut fields, mut colors) = (Vec::new(), Vec::new());
     let mut other_width = None;
     let most = header.map(|header| header.names.0).or(width);
     let most = most.map_or(columns.most, |count| count + 1);
@@ -66,7 +64,7 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
         {
             other_width = Some(line.number);
         }
-        add(&line, &fields, &columns, &mut particles, &mut raw, &mut scale)?;
+        add(&line, &fields, &columns, &mut particles, &mut colors)?;
     }
     if particles.is_empty() {
         return Err(no_row(input));
@@ -75,7 +73,11 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
         let what = "has not as many values as the first row: all rows are read as spheres";
         context.notes.note(format!("line {line} {what}"));
     }
-    particles.colors = raw.iter().map(|channels| scale.color(*channels)).collect();
+    // Colours go from 0 to 1, unless one is larger: then they go to 255.
+    let most = colors.iter().flatten().copied().fold(0.0, f32::max);
+    let scale = if most > 1.0 { 1.0 } else { 255.0 };
+    let channel = |share: f32| (scale * share).round().clamp(0.0, 255.0) as u8;
+    particles.colors = colors.iter().map(|color| Srgb(color.map(channel))).collect();
     particles.finish(&mut context.notes, input.source())
 }
 
@@ -118,13 +120,8 @@ fn layout(input: &mut Input, chosen: Option<&str>) -> Result<Layout, ReadError> 
     };
     let is_by_number = is_by_number(chosen);
     // A row may begin with an address below a header without slashes, or if the first row begins with no number.
-    let has_slashes = match is_header {
-        true => first.has_slashes,
-        false => {
-            let has_label = first.names().first().is_some_and(|name| number(name).is_none());
-            is_below_slashes || !has_label
-        }
-    };
+    let has_label = || first.names().first().is_some_and(|name| number(name).is_none());
+    let has_slashes = if is_header { first.has_slashes } else { is_below_slashes || !has_label() };
     let (mut first, is_header) = match is_header {
         true => header_of_rows(input, first, chosen)?,
         false => {
@@ -214,36 +211,22 @@ fn misfit(line: &Line<'_>, separator: Separator, columns: &Columns, header: Head
     line.error(byte, what)
 }
 
-/// Colours go from 0 to 1, unless one is larger: then they go to 255.
-#[derive(Clone, Copy, Debug, Default)]
-struct ColorScale {
-    most: f32,
-}
-
-impl ColorScale {
-    fn color(self, channels: [f32; 3]) -> Srgb {
-        let scale = if self.most > 1.0 { 1.0 } else { 255.0 };
-        Srgb(channels.map(|channel| (scale * channel).round().clamp(0.0, 255.0) as u8))
-    }
-}
-
 fn add(
     line: &Line<'_>,
     fields: &[Range<usize>],
     columns: &Columns,
     particles: &mut Particles,
-    raw: &mut Vec<[f32; 3]>,
-    scale: &mut ColorScale,
+    colors: &mut Vec<[f32; 3]>,
 ) -> Result<(), ReadError> {
     let number_in = |column: usize, name: &str| {
         let Some(field) = fields.get(column) else {
             let what = format!("{name} is missing: {} columns, not {}", fields.len(), column + 1);
             return Err(line.error(line.bytes.len(), what));
         };
-        let text = &line.bytes[field.clone()];
-        coordinate(line, field.start, text, name).or_else(|error| {
-            let value = number_before_comment(line.bytes, field).ok_or(error)?;
-            coordinate(line, field.start, value, name)
+        let word = Word { line: *line, byte: field.start, bytes: &line.bytes[field.clone()] };
+        word.coordinate(name).or_else(|error| {
+            let bytes = number_before_comment(line.bytes, field).ok_or(error)?;
+            Word { bytes, ..word }.coordinate(name)
         })
     };
     let value = |column, name| number_in(column, name).map(|value| value as f32);
@@ -255,8 +238,8 @@ fn add(
         let field = fields.get(column);
         let byte = field.map_or(line.bytes.len(), |field| field.start);
         let value = field.and_then(|field| number_before_comment(line.bytes, field));
-        let value = value.unwrap_or_else(|| text(column));
-        particles.radii.push(half_diameter(line, byte, value, "the diameter")?);
+        let word = Word { line: *line, byte, bytes: value.unwrap_or_else(|| text(column)) };
+        particles.radii.push(word.half_diameter("the diameter")?);
     }
     if let Some(column) = columns.radius {
         let radius = value(column, "the radius")?;
@@ -266,9 +249,7 @@ fn add(
         particles.radii.push(radius);
     }
     if let Some([red, green, blue]) = columns.color {
-        let channels = [value(red, "red")?, value(green, "green")?, value(blue, "blue")?];
-        scale.most = channels.iter().copied().fold(scale.most, f32::max);
-        raw.push(channels);
+        colors.push([value(red, "red")?, value(green, "green")?, value(blue, "blue")?]);
     }
     if let Some(column) = columns.kind {
         let (name, known) = (text(column), particles.kinds.known());

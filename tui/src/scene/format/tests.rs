@@ -16,13 +16,17 @@ mod wide;
 mod xyz;
 
 use super::Format;
+use crate::color::Srgb;
+use crate::scene::attributes::Naming;
 use crate::scene::frames::Frames;
+use crate::scene::input::Input;
 use crate::scene::open::{Opened, open};
-use crate::scene::reading::Reading;
-use crate::scene::reading::read;
+use crate::scene::reading::{Reading, frames, read};
 use crate::scene::{ReadError, Scene};
+use std::fs::OpenOptions;
 use std::io::{Cursor, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// The scene in `bytes`, told by them alone.
 fn scene(bytes: impl Into<Vec<u8>>) -> Result<Scene, ReadError> {
@@ -35,6 +39,25 @@ fn good(bytes: impl Into<Vec<u8>>) -> Scene {
 
 fn error(bytes: impl Into<Vec<u8>>) -> String {
     scene(bytes).expect_err("an error").to_string()
+}
+
+/// Asserts what is in the error of `bytes`: at its start, where that begins with the name of the file.
+#[track_caller]
+fn wrong(bytes: impl Into<Vec<u8>>, part: &str) {
+    let message = error(bytes);
+    let is_there =
+        if part.starts_with("f:") { message.starts_with(part) } else { message.contains(part) };
+    assert!(is_there, "{message}");
+}
+
+/// What `read` returns, in a time that grows with the file, not with its square.
+#[track_caller]
+fn soon<T>(read: impl FnOnce() -> T) -> T {
+    let begun = Instant::now();
+    let result = read();
+    let took = begun.elapsed();
+    assert!(took < Duration::from_secs(20), "{took:?}");
+    result
 }
 
 /// Centres and radii.
@@ -50,8 +73,13 @@ fn centers(scene: &Scene) -> Vec<[f32; 3]> {
     spheres(scene).into_iter().map(|[x, y, z, _]| [x, y, z]).collect()
 }
 
+/// The values of a column of numbers.
+fn numbers(scene: &Scene, name: &str) -> Option<Vec<f32>> {
+    scene.attributes().column(name).map(|column| column.values.clone())
+}
+
 /// A file of this test's own.
-fn file(name: &str, bytes: &[u8]) -> PathBuf {
+fn file(name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("spherule-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     let path = folder.join(name);
@@ -59,12 +87,59 @@ fn file(name: &str, bytes: &[u8]) -> PathBuf {
     path
 }
 
-fn frames_of(name: &str, bytes: &[u8], reading: &Reading) -> Frames {
+fn frames_of(name: &str, bytes: impl AsRef<[u8]>, reading: &Reading) -> Frames {
     let path = file(name, bytes);
     match open(path.to_str().expect("UTF-8"), reading).unwrap_or_else(|error| panic!("{error}")) {
         Opened::File(frames) => frames,
         Opened::Builtin(_) => panic!("a built-in scene"),
     }
+}
+
+/// The frames of a file, told by its content.
+fn film(name: &str, bytes: impl AsRef<[u8]>) -> Frames {
+    frames_of(name, bytes, &Reading::default())
+}
+
+/// One that grows.
+fn followed(name: &str, bytes: impl AsRef<[u8]>) -> Frames {
+    frames_of(name, bytes, &Reading { follow: true, ..Reading::default() })
+}
+
+/// Adds to a file of this test's own.
+fn append(path: &Path, bytes: &[u8]) {
+    let mut file = OpenOptions::new().append(true).open(path).expect("a file");
+    file.write_all(bytes).expect("written");
+}
+
+/// Frame `index`; `None` if there is none.
+fn frame(film: &mut Frames, index: usize) -> Option<Scene> {
+    film.read(index).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The centres in frame `index`; `None` if there is none.
+fn centers_in(film: &mut Frames, index: usize) -> Option<Vec<[f32; 3]>> {
+    frame(film, index).as_ref().map(centers)
+}
+
+/// The error of frame `index`.
+#[track_caller]
+fn error_in(film: &mut Frames, index: usize) -> String {
+    film.read(index).expect_err("an error").to_string()
+}
+
+/// The table in `text`, read by these columns: as a table, where its content tells that or `format` does.
+fn by(format: Option<Format>, columns: &str, text: &str) -> Scene {
+    let reading = Reading { format, columns: Some(columns.to_owned()), ..Reading::default() };
+    let input = Input::of_reader(Box::new(Cursor::new(text.to_owned())), "f").expect("an input");
+    let film = &mut frames(input, &reading).unwrap_or_else(|error| panic!("{error}"));
+    frame(film, 0).expect("a table")
+}
+
+/// What there is to say of the first frame.
+fn notes(name: &str, text: &str) -> Vec<String> {
+    let film = &mut film(name, text);
+    assert!(frame(film, 0).is_some(), "{name}");
+    film.notes()
 }
 
 fn gz(bytes: &[u8]) -> Vec<u8> {
@@ -101,6 +176,15 @@ fn npy(descr: &str, fortran: &str, shape: &str, data: &[u8]) -> Vec<u8> {
     bytes.extend(data);
     bytes
 }
+
+/// A frame of a dump of LAMMPS, of atoms in a box.
+fn dump(bounds: &str, columns: &str, atoms: &str) -> String {
+    let (head, count) = ("ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS", atoms.lines().count());
+    format!("{head}\n{count}\nITEM: BOX BOUNDS {bounds}\nITEM: ATOMS {columns}\n{atoms}")
+}
+
+/// One that does not matter.
+const BOUNDS: &str = "pp pp pp\n0 1\n0 1\n0 1";
 
 const PDB: &str = "\
 HEADER    TEST

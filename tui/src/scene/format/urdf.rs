@@ -7,7 +7,6 @@
 mod joints;
 mod limits;
 
-use super::context::LONGEST_TEXT;
 use crate::scene::Scene;
 use crate::scene::attributes::Naming;
 use crate::scene::input::Input;
@@ -27,17 +26,9 @@ const LONGEST_NAME: usize = 1024;
 /// # Errors
 /// [`ReadError`] if it is no XML, beyond its limits, has no spheres, a joint in a circle, or a number that is none.
 pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadError> {
-    let bytes = input.rest(LONGEST_TEXT)?;
+    let text = &input.text()?;
     let source = input.source();
-    let text =
-        std::str::from_utf8(&bytes).map_err(|_| ReadError::whole(source, "not valid UTF-8"))?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    limits::check(text).map_err(|(byte, what)| {
-        let before = &text[..byte];
-        let line = before.matches('\n').count() + 1;
-        let column = before.chars().rev().take_while(|&letter| letter != '\n').count() + 1;
-        ReadError::at(source, line, column, what)
-    })?;
+    limits::check(text).map_err(|(byte, what)| ReadError::in_text(source, text, byte, what))?;
     let options = ParsingOptions { nodes_limit: 1 << 22, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {
         let place = error.pos();
@@ -45,8 +36,7 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
     })?;
     let robot = document.root_element();
     let wrong = |node: Node<'_, '_>, what: String| {
-        let place = document.text_pos_at(node.range().start);
-        ReadError::at(source, place.row as usize, place.col as usize, what)
+        ReadError::in_text(source, text, node.range().start, what)
     };
     if robot.tag_name().name() != "robot" {
         return Err(wrong(robot, format!("<{}>, not <robot>", robot.tag_name().name())));
@@ -100,17 +90,13 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
                 let text = sphere.attribute("radius").unwrap_or_default();
                 let radius = text.trim().parse::<f64>().map_or(f32::NAN, |radius| radius as f32);
                 if !(radius.is_finite() && radius >= 0.0) {
-                    return Err(wrong(
-                        sphere,
-                        format!("radius is {text:?}: no number of zero or more"),
-                    ));
+                    let what = format!("radius is {text:?}: no number of zero or more");
+                    return Err(wrong(sphere, what));
                 }
                 let center = (transform * origin(part)?).translation;
                 if !center.as_vec3().is_finite() {
-                    return Err(wrong(
-                        sphere,
-                        format!("at {center}: not finite in single precision"),
-                    ));
+                    let what = format!("at {center}: not finite in single precision");
+                    return Err(wrong(sphere, what));
                 }
                 particles.center(center);
                 particles.radii.push(radius);

@@ -37,16 +37,12 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     let wrong = |what: String| ReadError::whole(&source, what);
     let bytes = raw(input)?;
     let mut frame = Frame::default();
-    match decoded(&bytes, &mut frame) {
-        Ok(()) => {}
-        Err(error) => return Err(wrong(format!("a damaged frame: {error}"))),
-    }
+    decoded(&bytes, &mut frame).map_err(|what| wrong(format!("a damaged frame: {what}")))?;
     let centers = frame.coords().map(|point| Vec3::from_array(point) * ANGSTROM);
     let centers: Vec<Vec3> = centers.collect();
     if centers.is_empty() || !centers.iter().all(|center| center.is_finite()) {
-        return Err(wrong(
-            "a frame without atoms, or with one that is not at a finite point".to_owned(),
-        ));
+        let what = "a frame without atoms, or with one that is not at a finite point";
+        return Err(wrong(what.to_owned()));
     }
     let Some(topology) = &context.topology else {
         context.notes.note("positions alone: --topology FILE says what the particles are");
@@ -56,16 +52,10 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     };
     let spheres = topology.spheres();
     if spheres.len() != centers.len() {
-        return Err(wrong(format!(
-            "{} atoms in a frame; the topology has {}",
-            centers.len(),
-            spheres.len()
-        )));
+        let (atoms, known) = (centers.len(), spheres.len());
+        return Err(wrong(format!("{atoms} atoms in a frame; the topology has {known}")));
     }
-    let list = spheres
-        .iter()
-        .zip(centers)
-        .map(|(Sphere { radius, .. }, center)| Sphere { center, radius });
+    let list = spheres.iter().zip(centers).map(|(sphere, center)| Sphere { center, ..sphere });
     // The numbers of this format are of single precision already.
     Ok(Some(Scene { origin: DVec3::ZERO, ..topology.moved(list.collect()) }))
 }
@@ -111,9 +101,6 @@ fn raw(input: &mut Input) -> Result<Vec<u8>, ReadError> {
 
 /// Decodes a frame. The crate panics where bits run out: that is an error here.
 fn decoded(bytes: &[u8], frame: &mut Frame) -> Result<(), String> {
-    match catch(|| XTCReader::new(bytes).read_frame(frame)) {
-        Some(Ok(())) => Ok(()),
-        Some(Err(error)) => Err(error.to_string()),
-        None => Err("its bits run out".to_owned()),
-    }
+    let read = catch(|| XTCReader::new(bytes).read_frame(frame));
+    read.ok_or("its bits run out")?.map_err(|error| error.to_string())
 }

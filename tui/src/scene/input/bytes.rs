@@ -1,24 +1,36 @@
-//! An input as bytes, where it has no lines.
+//! An input as bytes, or as one text, where it has no lines.
 
 use super::{BLOCK, Input};
 use crate::error::cause;
 use crate::scene::read_error::ReadError;
 use std::io::{self, Read};
 
+/// The longest text that is read as a whole, in bytes: some half a million spheres.
+const LONGEST_TEXT: usize = 64 << 20;
+
 impl Input {
-    /// All that is left, at most `longest` bytes.
+    /// All that is left as text, without a byte order mark.
     ///
     /// # Errors
-    /// [`ReadError`] if it cannot be read, or is longer.
-    pub(in crate::scene) fn rest(&mut self, longest: usize) -> Result<Vec<u8>, ReadError> {
+    /// [`ReadError`] if it cannot be read, is longer than [`LONGEST_TEXT`], or no UTF-8.
+    pub(in crate::scene) fn text(&mut self) -> Result<String, ReadError> {
         let mut bytes = Vec::new();
-        let read = Read::take(&mut *self, longest as u64 + 1).read_to_end(&mut bytes);
+        let read = Read::take(&mut *self, LONGEST_TEXT as u64 + 1).read_to_end(&mut bytes);
         read.map_err(|error| self.failed(&error))?;
-        if bytes.len() > longest {
-            let what = format!("a scene of more than {} MiB", longest >> 20);
+        if bytes.len() > LONGEST_TEXT {
+            let what = format!("a scene of more than {} MiB", LONGEST_TEXT >> 20);
             return Err(ReadError::whole(&self.source, what));
         }
-        Ok(bytes)
+        let mut text = String::from_utf8(bytes).map_err(|error| {
+            let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+            let line = valid.split(|&byte| byte == b'\n').count();
+            let wrong = ReadError::whole(&self.source, "not valid UTF-8");
+            ReadError { line: Some(line), ..wrong }
+        })?;
+        if text.starts_with('\u{feff}') {
+            text.remove(0);
+        }
+        Ok(text)
     }
 
     /// Adds the next bytes to `bytes`, at most so many.

@@ -2,6 +2,9 @@
 
 use crate::scene::read_error::ReadError;
 
+/// The longest line, in bytes: a million columns have room.
+pub(in crate::scene) const LONGEST_LINE: usize = 16 << 20;
+
 /// A line, and where it is.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::scene) struct Line<'a> {

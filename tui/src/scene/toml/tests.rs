@@ -24,6 +24,8 @@ color = "#ffeedd"
 position = [0, 9, 0]
 "##;
 
+const SPHERE: &str = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+
 fn error(text: &str) -> String {
     read(text, "s.toml").expect_err(text).to_string()
 }
@@ -46,7 +48,7 @@ fn everything_that_can_be_said() {
 
 #[test]
 fn one_sphere_is_enough() {
-    let scene = read("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n", "").expect("a scene");
+    let scene = read(SPHERE, "").expect("a scene");
     assert!(scene.view.is_none() && scene.lighting.is_plain() && !scene.shadows);
     assert_eq!((scene.background, scene.names_background), (Srgb::BLACK, false));
 }
@@ -54,35 +56,29 @@ fn one_sphere_is_enough() {
 #[test]
 fn a_parallel_camera_has_a_height() {
     let text = "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nprojection = \"parallel\"\n";
-    let sphere = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
-    let scene = read(&format!("{text}height = 3\n{sphere}"), "").expect("a scene");
+    let scene = read(&format!("{text}height = 3\n{SPHERE}"), "").expect("a scene");
     assert_eq!(scene.view.map(|view| view.lens), Some(Lens::Parallel { height: 3.0 }));
-    assert_eq!(error(&format!("{text}{sphere}")), "s.toml:1:1: a parallel camera has a height");
-    assert!(error(&format!("{text}fov = 3\n{sphere}")).starts_with("s.toml:5:7: fov is for"));
-    assert!(error(&format!("{text}height = 0\n{sphere}")).starts_with("s.toml:5:10: height is 0"));
+    assert_eq!(error(&format!("{text}{SPHERE}")), "s.toml:1:1: a parallel camera has a height");
+    assert!(error(&format!("{text}fov = 3\n{SPHERE}")).starts_with("s.toml:5:7: fov is for"));
+    assert!(error(&format!("{text}height = 0\n{SPHERE}")).starts_with("s.toml:5:10: height is 0"));
 }
 
 #[test]
 fn the_light_of_the_camera_is_asked_for_by_its_name() {
-    let sphere = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
-    let scene = read(&format!("light = \"camera\"\n{sphere}"), "").expect("a scene");
+    let scene = read(&format!("light = \"camera\"\n{SPHERE}"), "").expect("a scene");
     assert_eq!(scene.lighting, Lighting::Camera);
-    let scene = read(&format!("light = []\n{sphere}"), "").expect("a scene");
+    let scene = read(&format!("light = []\n{SPHERE}"), "").expect("a scene");
     assert_eq!(scene.lighting, Lighting::Plain);
     // It goes with no other light: TOML has no key twice.
-    let both = error(&format!("light = \"camera\"\n{sphere}[[light]]\ndirection = [1, 0, 0]\n"));
+    let both = error(&format!("light = \"camera\"\n{SPHERE}[[light]]\ndirection = [1, 0, 0]\n"));
     assert!(both.starts_with("s.toml:5:3: duplicate key `light`"), "{both}");
 }
 
 #[test]
 fn every_mistake_has_a_line_and_a_column() {
     let sphere = |lines: &str| format!("[[sphere]]\n{lines}\n");
-    let light =
-        |lines: &str| format!("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n[[light]]\n{lines}\n");
-    let camera = |lines: &str| {
-        let first = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n[camera]\neye = [0, 0, 5]\n";
-        format!("{first}{lines}\n")
-    };
+    let light = |lines: &str| format!("{SPHERE}[[light]]\n{lines}\n");
+    let camera = |lines: &str| format!("{SPHERE}[camera]\neye = [0, 0, 5]\n{lines}\n");
     let radius = |value: &str| sphere(&format!("center = [0, 0, 0]\nradius = {value}"));
     let target = |line: &str| camera(&format!("target = [0, 0, 0]\n{line}"));
     for (text, message) in [

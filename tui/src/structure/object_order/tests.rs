@@ -7,9 +7,9 @@ use spherule_kernel::{Camera, Coherence, Intersect, Level, SphereList, Tier, Tra
 
 const VIEW: View = View {
     eye: Vec3::ZERO,
-    target: Vec3::new(0.0, 0.0, -1.0),
-    up: Vec3::Y,
+    target: Vec3::NEG_Z,
     lens: Lens::Perspective { fov: 90.0 },
+    ..View::FRONT
 };
 
 fn tracing(tier: Tier) -> Tracing {

@@ -1,15 +1,19 @@
 use super::*;
 
+/// Nothing is known yet.
+fn around(list: &SphereList, reach: f32, tree: Option<Arc<SphereTree>>) -> Around {
+    let openness = Arc::new(Openness::new(list.len(), reach));
+    Around { openness, list: Arc::new(list.clone()), tree }
+}
+
 /// The openness around every sphere of a list.
 fn learnt(list: &SphereList, reach: f32) -> Arc<Openness> {
-    let openness = Arc::new(Openness::new(list.len(), reach));
-    let around =
-        Around { openness: Arc::clone(&openness), list: Arc::new(list.clone()), tree: None };
+    let around = around(list, reach, None);
     let threads = Threads::default();
     let all = || 0..list.len() as u32;
     assert_eq!(learn(&around, &threads, all().chain(all())), 64 * list.len() as u64);
     assert_eq!(learn(&around, &threads, all()), 0);
-    openness
+    around.openness
 }
 
 /// Learns some spheres, and returns how many rays that took.
@@ -131,8 +135,7 @@ fn how_it_is_found_does_not_show() {
     let list = rows(500);
     let expected = learnt(&list, f32::INFINITY);
     let tree = Some(Arc::new(SphereTree::new(list.clone())));
-    let openness = Arc::new(Openness::new(list.len(), f32::INFINITY));
-    let around = Around { openness: Arc::clone(&openness), list: Arc::new(list), tree };
+    let around = around(&list, f32::INFINITY, tree);
     std::thread::scope(|scope| {
         for part in 0..4_u32 {
             let around = &around;
@@ -146,7 +149,7 @@ fn how_it_is_found_does_not_show() {
             });
         }
     });
-    assert_same(&openness, &expected);
+    assert_same(&around.openness, &expected);
 }
 
 /// What is not learnt is learnt later, as if no one had stopped.
@@ -154,18 +157,17 @@ fn how_it_is_found_does_not_show() {
 fn stopped_threads_learn_nothing_and_what_is_known_stays() {
     let (list, few) = (rows(500), 300);
     let (expected, threads) = (learnt(&list, f32::INFINITY), Threads::default());
-    let openness = Arc::new(Openness::new(list.len(), f32::INFINITY));
-    let around = Around { openness: Arc::clone(&openness), list: Arc::new(list), tree: None };
+    let around = around(&list, f32::INFINITY, None);
     threads.stop();
     assert_eq!(learn(&around, &threads, 0..500), 0);
-    assert!(openness.known.iter().all(|one| one.load(Ordering::Relaxed) == UNKNOWN));
+    assert!(around.openness.known.iter().all(|one| one.load(Ordering::Relaxed) == UNKNOWN));
     threads.go_on();
     assert_eq!(learn(&around, &threads, 0..few), 64 * u64::from(few));
     threads.stop();
     assert_eq!(learn(&around, &threads, 0..500), 0);
     threads.go_on();
     assert_eq!(learn(&around, &threads, 0..500), 64 * u64::from(500 - few));
-    assert_same(&openness, &expected);
+    assert_same(&around.openness, &expected);
 }
 
 #[test]

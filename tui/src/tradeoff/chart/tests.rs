@@ -45,10 +45,6 @@ fn style(charset: Charset, depth: ColorDepth) -> Style {
     Style { charset, depth, ..Style::PLAIN }
 }
 
-fn lines_of(cells: &CellGrid) -> Vec<String> {
-    (0..cells.rows()).map(|row| cells.row(row).iter().map(|cell| cell.glyph).collect()).collect()
-}
-
 /// What is written over a picture of dots, and the row below it.
 fn written(style: &Style, (columns, rows): (u16, u16), standing: &Standing) -> CellGrid {
     let mut cells = CellGrid::new(columns, rows + 1);
@@ -80,7 +76,7 @@ fn in_ascii_over_the_lower_left() {
         " exact        50.0 ###########        0                          0             ..",
         " bars of wrong and ulp: logarithms, full at 10^6 and 2^24                      ..",
     ];
-    assert_eq!(lines_of(&cells)[..14], expected.map(str::to_owned));
+    assert_eq!(cells.lines()[..14], expected.map(str::to_owned));
 }
 
 /// What the box says is what the report says, tier by tier, however wide it is.
@@ -90,7 +86,7 @@ fn the_numbers_are_read_back() {
     for columns in [64, 80, 100, 200] {
         for charset in [Charset::Ascii, Charset::Half, Charset::Block] {
             let style = style(charset, ColorDepth::Truecolor);
-            let lines = lines_of(&written(&style, (columns, 20), &done));
+            let lines = written(&style, (columns, 20), &done).lines();
             let rows = lines.iter().filter(|line| {
                 Tier::ALL.iter().any(|tier| line.starts_with(&format!(" {} ", tier.as_str())))
             });
@@ -128,7 +124,7 @@ fn without_colour_there_is_none_and_in_ascii_nothing_else() {
                 let colored = cells.cells().iter().any(|cell| cell.foreground != Color::Default);
                 let has_bars = matches!(standing, Standing::Underway(..) | Standing::Done(_));
                 assert_eq!(colored, depth != ColorDepth::Never && has_bars, "{standing:?}");
-                let ascii = lines_of(&cells).concat().is_ascii();
+                let ascii = cells.lines().concat().is_ascii();
                 assert_eq!(ascii, charset == Charset::Ascii || !has_bars, "{standing:?}");
             }
         }
@@ -138,7 +134,7 @@ fn without_colour_there_is_none_and_in_ascii_nothing_else() {
 #[test]
 fn what_is_too_small_says_what_it_needs_and_shows_what_fits() {
     let done = Standing::Done(report(&BOTH));
-    let text = |size| lines_of(&written(&Style::PLAIN, size, &done)).join("\n");
+    let text = |size| written(&Style::PLAIN, size, &done).lines().join("\n");
     assert!(text((80, 13)).contains("1,000,000 shadow") && !text((80, 13)).contains("needs"));
     let low = text((80, 9));
     assert!(low.contains(" table needs 80x13, has 80x9 "), "{low}");
@@ -177,7 +173,7 @@ fn bars_are_as_long_as_their_share() {
 #[test]
 fn how_far_it_is_is_told() {
     let cells = written(&Style::PLAIN, (60, 4), &Standing::Underway(Step::Camera, 0.4));
-    let [_, _, doing, way, _] = &lines_of(&cells)[..] else { panic!("five rows") };
+    let [_, _, doing, way, _] = &cells.lines()[..] else { panic!("five rows") };
     assert_eq!(doing, " measuring camera rays                           ...........");
     assert_eq!(way, " ############                    40 %  Esc stops ...........");
 }

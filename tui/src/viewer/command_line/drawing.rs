@@ -93,7 +93,6 @@ mod tests {
     use crate::arguments::{Arguments, Overlay};
     use crate::scene::attributes::{Attributes, NumberColumn};
     use crate::style::{Charset, Style};
-    use crate::view::View;
     use crate::viewer::Start;
     use crate::viewer::keys::Input;
     use clap::Parser;
@@ -112,7 +111,6 @@ mod tests {
         let crowd = &asked.crowd;
         let colors = Colors::new(&scene, &crowd.color_by(&scene), crowd.range);
         let start = Start {
-            view: View::FRONT,
             style: Style {
                 accuracy: asked.accuracy,
                 charset: asked.charset.unwrap_or(Charset::Half),
@@ -123,6 +121,7 @@ mod tests {
             comparison: asked.show.and_then(Overlay::comparison),
             table: asked.show == Some(Overlay::Table),
             legend: crowd.legend,
+            ..Start::FRONT
         };
         let mut state = State::new(start, colors.start());
         for &input in inputs {

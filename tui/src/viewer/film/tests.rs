@@ -13,13 +13,21 @@ fn path(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()))
 }
 
+/// The name of a file of this text.
+fn written(name: &str, text: impl AsRef<[u8]>) -> String {
+    std::fs::write(path(name), text).expect("a file");
+    path(name).into_os_string().into_string().expect("UTF-8")
+}
+
 fn text(count: usize) -> String {
     (0..count).map(|index| format!("1\n\nC {index} 0 0\n")).collect()
 }
 
+/// A frame that lacks an atom.
+const WRONG: &str = "2\n\nC 0 0 0\n";
+
 fn film(name: &str, count: usize) -> Film {
-    std::fs::write(path(name), text(count)).expect("a file");
-    film_of(path(name).to_str().expect("UTF-8"))
+    film_of(&written(name, text(count)))
 }
 
 /// The same from a pipe.
@@ -31,57 +39,53 @@ fn piped(count: usize) -> Film {
 }
 
 fn film_of(name: &str) -> Film {
-    film_by(name, &Reading::default())
+    film_from(name, &Reading::default(), 0)
 }
 
 /// One of a file that grows.
 fn followed(name: &str, count: usize) -> Film {
-    std::fs::write(path(name), text(count)).expect("a file");
     let reading = Reading { follow: true, ..Reading::default() };
-    film_by(path(name).to_str().expect("UTF-8"), &reading)
-}
-
-fn film_by(name: &str, reading: &Reading) -> Film {
-    film_from(name, reading, 0)
+    film_from(&written(name, text(count)), &reading, 0)
 }
 
 fn film_from(name: &str, reading: &Reading, first: usize) -> Film {
+    Film::new(opened(name, reading, first), first, |_| Ok(())).expect("a thread")
+}
+
+/// The frames of a file of which the first to be shown has been read.
+fn opened(name: &str, reading: &Reading, first: usize) -> Frames {
     let Ok(Opened::File(mut frames)) = open(name, reading) else { panic!("no file") };
     let _ = frames.read(first).expect("a frame").expect("a frame");
-    Film::new(frames, first, |_| Ok(())).expect("a thread")
+    frames
+}
+
+/// What is found within four seconds.
+fn soon<T>(mut look: impl FnMut() -> Option<T>) -> Option<T> {
+    (0..2000).find_map(|_| {
+        let found = look();
+        if found.is_none() {
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        found
+    })
 }
 
 /// x of the next frame, once it is there.
 fn next(film: &mut Film) -> f32 {
-    for _ in 0..2000 {
-        if let Some(scene) = film.next() {
-            return scene.spheres().get(0).expect("an atom").center.x;
-        }
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    panic!("no frame comes: {}", film.status());
+    let scene = soon(|| film.next());
+    let scene = scene.unwrap_or_else(|| panic!("no frame comes: {}", film.status()));
+    scene.spheres().get(0).expect("an atom").center.x
 }
 
-/// No frame comes any more, and there is something to tell.
-fn stops_with_news(film: &mut Film) {
-    for _ in 0..2000 {
-        if film.wait().is_none() {
-            break;
-        }
-        assert!(film.next().is_none());
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    assert!(film.wait().is_none() && !film.take_news().is_empty());
+/// x of the frame to which a step leads.
+fn stepped(film: &mut Film, forward: bool) -> f32 {
+    film.step(forward);
+    next(film)
 }
 
 fn wait_until(film: &Film, is_so: impl Fn(&State) -> bool) {
-    for _ in 0..2000 {
-        if is_so(&film.shared.lock()) {
-            return;
-        }
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    panic!("it is never so: {}", film.status());
+    let was_so = soon(|| is_so(&film.shared.lock()).then_some(()));
+    assert!(was_so.is_some(), "it is never so: {}", film.status());
 }
 
 #[test]
@@ -93,8 +97,7 @@ fn steps_go_on_and_back_and_end_at_the_ends() {
         assert!(film.wait().is_some());
         assert_eq!(next(&mut film), x);
     }
-    film.step(true);
-    assert_eq!(next(&mut film), 2.0);
+    assert_eq!(stepped(&mut film, true), 2.0);
     // The end has been seen by now, or is seen by this.
     film.step(true);
     std::thread::sleep(Duration::from_millis(100));
@@ -180,41 +183,24 @@ fn the_longer_no_frame_comes_the_less_often_it_is_looked_for() {
 fn a_file_of_one_frame_does_not_play() {
     let empty = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: ATOMS id type x y z\n";
     let one = empty.replace("ATOMS\n0\n", "ATOMS\n1\n") + "1 1 0 0 0\n";
-    std::fs::write(path("late.dump"), empty.to_owned() + &one).expect("a file");
-    let late = film_from(path("late.dump").to_str().expect("UTF-8"), &Reading::default(), 1);
+    let name = written("late.dump", empty.to_owned() + &one);
+    let late = film_from(&name, &Reading::default(), 1);
     for mut film in [film("single.xyz", 1), late] {
         film.play();
-        for _ in 0..2000 {
+        soon(|| {
             assert!(film.next().is_none());
-            if !film.is_playing() {
-                break;
-            }
-            std::thread::sleep(Duration::from_millis(2));
-        }
+            (!film.is_playing()).then_some(())
+        });
         assert!(!film.is_playing() && film.wait().is_none());
     }
 }
 
 #[test]
 fn steps_past_a_frame_that_is_wrong_lead_to_the_one_before() {
-    std::fs::write(path("wrong.xyz"), text(3) + "2\n\nC 0 0 0\n").expect("a file");
-    let mut film = film_of(path("wrong.xyz").to_str().expect("UTF-8"));
+    let mut film = film_of(&written("wrong.xyz", text(3) + WRONG));
     film.want(60);
     assert_eq!(next(&mut film), 2.0);
     assert!(film.status().starts_with("frame 3: "), "{}", film.status());
-}
-
-/// They would be read from the middle of a line.
-#[test]
-fn other_contents_of_a_file_that_is_followed_end_the_film() {
-    let mut film = followed("cut.xyz", 3);
-    film.play();
-    assert_eq!((next(&mut film), next(&mut film)), (1.0, 2.0));
-    wait_until(&film, |state| state.unwritten == Some(3));
-    std::fs::write(path("cut.xyz"), text(4).replace('C', "O")).expect("a file");
-    wait_until(&film, |state| state.ending.is_some());
-    stops_with_news(&mut film);
-    assert_eq!(film.status(), "frame 3: the file was written anew, with other contents");
 }
 
 /// Not even at the end is one of them waited for.
@@ -228,11 +214,9 @@ fn frames_without_atoms_are_passed_over() {
     };
     let atoms = [1, 0, 0, 1, 1, 0, 0];
     let text: String = atoms.iter().enumerate().map(|(x, &atoms)| frame(x, atoms)).collect();
-    std::fs::write(path("empty.dump"), text).expect("a file");
-    let mut film = film_of(path("empty.dump").to_str().expect("UTF-8"));
+    let mut film = film_of(&written("empty.dump", text));
     for (forward, x) in [(true, 3.0), (false, 0.0), (true, 3.0), (true, 4.0)] {
-        film.step(forward);
-        assert_eq!(next(&mut film), x);
+        assert_eq!(stepped(&mut film, forward), x);
     }
     wait_until(&film, |state| state.count == Some(5));
     film.step(true);
@@ -255,8 +239,7 @@ fn it_plays_all_and_begins_again() {
 #[test]
 fn no_more_is_read_than_has_room() {
     let mut film = film("room.xyz", 500);
-    film.step(true);
-    assert_eq!(next(&mut film), 1.0);
+    assert_eq!(stepped(&mut film, true), 1.0);
     std::thread::sleep(Duration::from_millis(200));
     let ready = film.shared.lock().ready.len();
     assert!(ready <= AHEAD + 3, "{ready}");
@@ -266,8 +249,7 @@ fn no_more_is_read_than_has_room() {
 fn a_pipe_goes_back_as_far_as_is_kept_and_on_to_its_end() {
     let mut film = piped(20);
     for x in 1..=10 {
-        film.step(true);
-        assert_eq!(next(&mut film), x as f32);
+        assert_eq!(stepped(&mut film, true), x as f32);
     }
     wait_until(&film, |state| state.ready.contains_key(&19));
     // One frame behind is kept.
@@ -277,29 +259,11 @@ fn a_pipe_goes_back_as_far_as_is_kept_and_on_to_its_end() {
     assert_eq!(next(&mut film), 9.0);
     assert!(film.next().is_none() && film.wait().is_none());
     for x in 10..20 {
-        film.step(true);
-        assert_eq!(next(&mut film), x as f32);
+        assert_eq!(stepped(&mut film, true), x as f32);
     }
     wait_until(&film, |state| state.count.is_some());
     film.play();
     std::thread::sleep(Duration::from_millis(100));
     assert!(film.next().is_none() && film.wait().is_none());
     assert_eq!(film.status(), "19/20");
-}
-
-/// What it still has can be shown, and why it stopped is told.
-#[test]
-fn a_file_that_is_gone_stops_where_it_would_begin_again() {
-    let mut film = film("gone.xyz", 4);
-    wait_until(&film, |state| state.count.is_some());
-    std::fs::remove_file(path("gone.xyz")).expect("the file");
-    film.play();
-    for x in [1.0, 2.0, 3.0] {
-        assert_eq!(next(&mut film), x);
-    }
-    stops_with_news(&mut film);
-    assert!(film.status().starts_with("frame 0: "), "{}", film.status());
-    film.step(false);
-    assert_eq!(next(&mut film), 2.0);
-    assert_eq!(film.status(), "2/4");
 }

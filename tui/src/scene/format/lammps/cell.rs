@@ -1,8 +1,7 @@
 //! The box of a frame of a dump, in fractions of which positions may be.
 
-use super::super::words::{Words, excerpt};
-use crate::scene::input::{Input, Line};
-use crate::scene::number::number;
+use super::super::words::Words;
+use crate::scene::input::Input;
 use crate::scene::read_error::ReadError;
 use glam::{DMat3, DVec3};
 
@@ -25,15 +24,14 @@ impl Cell {
     fn of_edges(input: &mut Input) -> Result<Self, ReadError> {
         let mut cell = Self::default();
         for axis in 0..3 {
-            let line = input.expect("the box")?;
-            let mut words = Words::of(line);
+            let mut words = Words::of(input.expect("the box")?);
             let edge = cell.edges.col_mut(axis);
             *edge = DVec3::new(
-                value(&line, &mut words, "x of an edge")?,
-                value(&line, &mut words, "y of an edge")?,
-                value(&line, &mut words, "z of an edge")?,
+                words.number("x of an edge")?,
+                words.number("y of an edge")?,
+                words.number("z of an edge")?,
             );
-            cell.origin[axis] = value(&line, &mut words, "the origin")?;
+            cell.origin[axis] = words.number("the origin")?;
         }
         Ok(cell)
     }
@@ -42,11 +40,10 @@ impl Cell {
     fn of_bounds(input: &mut Input) -> Result<Self, ReadError> {
         let (mut low, mut high, mut tilt) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         for axis in 0..3 {
-            let line = input.expect("the box")?;
-            let mut words = Words::of(line);
-            low[axis] = value(&line, &mut words, "low")?;
-            high[axis] = value(&line, &mut words, "high")?;
-            tilt[axis] = value(&line, &mut words, "tilt").unwrap_or(0.0);
+            let mut words = Words::of(input.expect("the box")?);
+            low[axis] = words.number("low")?;
+            high[axis] = words.number("high")?;
+            tilt[axis] = words.number("tilt").unwrap_or(0.0);
         }
         let [xy, xz, yz] = tilt.to_array();
         let corners = [0.0, xy, xz, xy + xz];
@@ -63,9 +60,4 @@ impl Cell {
     pub(super) fn point(&self, [x, y, z]: [f64; 3]) -> DVec3 {
         self.origin + x * self.edges.x_axis + y * self.edges.y_axis + z * self.edges.z_axis
     }
-}
-
-fn value(line: &Line<'_>, words: &mut Words<'_>, name: &str) -> Result<f64, ReadError> {
-    let (byte, word) = words.expect(name)?;
-    number(word).ok_or_else(|| line.error(byte, format!("{name} is {}: no number", excerpt(word))))
 }

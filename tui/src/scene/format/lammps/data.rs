@@ -4,14 +4,15 @@
 //! their number tells: five are atomic, seven are full or sphere, six are charge or molecular, by whether the third is an
 //! integer. Three more are images.
 
-use super::super::words::{Words, coordinate, count, excerpt, single};
+use super::super::stated::Stated;
+use super::super::words::{Words, count, excerpt};
 use super::dump::id;
 use super::style::Style;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
 use crate::scene::input::{Input, Line};
 use crate::scene::notes::Notes;
-use crate::scene::number::number;
+use crate::scene::number::number_or_nan;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use crate::scene::symbols::Symbols;
@@ -52,21 +53,18 @@ pub(in super::super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Sce
             }
         }
     };
-    let Some((atoms, first)) = announced.filter(|&(atoms, _)| atoms > 0) else {
-        return Err(ReadError::whole(
-            input.source(),
-            "no number of atoms before the section Atoms",
-        ));
+    let Some((count, line)) = announced.filter(|&(count, _)| count > 0) else {
+        let what = "no number of atoms before the section Atoms";
+        return Err(ReadError::whole(input.source(), what));
     };
+    let stated = Stated { count, line, called: "atoms" };
     input.is_over_but_blanks()?;
     let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::default() };
     let (mut ids, mut columns) = (Vec::new(), None);
-    let mut charges = NumberColumn { name: "charge".into(), values: Vec::new() };
+    let mut charges = NumberColumn::named("charge");
     let mut atom = 0;
-    while atom < atoms {
-        let ends =
-            || format!("the file ends after {atom} of the {atoms} atoms that line {first} says");
-        let Some(line) = input.line()? else { return Err(input.ends(ends())) };
+    while atom < stated.count {
+        let line = stated.next(input, atom)?;
         if line.trimmed().starts_with(b"#") {
             continue;
         }
@@ -84,21 +82,18 @@ pub(in super::super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Sce
         add(line, &style, &mut particles, &mut ids, &mut charges.values)?;
         atom += 1;
     }
-    check_next(input, atoms, first)?;
+    check_next(input, stated)?;
     particles.columns.push(charges);
     particles.sort_by(&ids);
     particles.finish(notes, input.source())
 }
 
 /// What follows may be a section, but not another atom.
-fn check_next(input: &mut Input, atoms: usize, first: usize) -> Result<(), ReadError> {
+fn check_next(input: &mut Input, stated: Stated) -> Result<(), ReadError> {
     while let Some(line) = input.line()? {
         match line.trimmed().first() {
             None | Some(b'#') => {}
-            Some(byte) if byte.is_ascii_digit() => {
-                let what = format!("one atom more than the {atoms} that line {first} says");
-                return Err(line.error(0, what));
-            }
+            Some(byte) if byte.is_ascii_digit() => return Err(stated.one_more(&line)),
             Some(_) => break,
         }
     }
@@ -115,20 +110,20 @@ fn add(
     let mut words = Words::of(line);
     let mut position = [0.0; 3];
     for column in 0..style.position + 3 {
-        let (byte, word) = words.expect("a column")?;
+        let word = words.expect("a column")?;
         if column == 0 {
-            ids.push(id(&line, byte, word)?);
+            ids.push(id(&word)?);
         } else if column >= style.position {
             let axis = column - style.position;
-            position[axis] = coordinate(&line, byte, word, ["x", "y", "z"][axis])?;
+            position[axis] = word.coordinate(["x", "y", "z"][axis])?;
         } else if column == style.kind {
-            particles.kind(word, line.number);
+            particles.kind(word.bytes, line.number);
         } else if Some(column) == style.molecule {
-            particles.naming(Naming::Molecule).push(word);
+            particles.naming(Naming::Molecule).push(word.bytes);
         } else if Some(column) == style.charge {
-            charges.push(number(word).map_or(f32::NAN, |value| value as f32));
+            charges.push(number_or_nan(word.bytes));
         } else if Some(column) == style.diameter {
-            particles.radii.push(single(&line, byte, word, "diameter", 0.5)?.abs());
+            particles.radii.push(word.single("diameter", 0.5)?.abs());
         }
     }
     particles.center(DVec3::from_array(position));

@@ -4,12 +4,13 @@
 //! `xs`, `xsu`. Fractions are scaled as the documentation of `dump` says, also where the box is sheared.
 
 use super::super::Context;
-use super::super::words::{Words, coordinate, count, excerpt, single};
+use super::super::stated::Stated;
+use super::super::words::{Word, Words, excerpt, split};
 use super::cell::Cell;
 use crate::scene::Scene;
 use crate::scene::attributes::{Naming, NumberColumn};
 use crate::scene::input::{Input, Line};
-use crate::scene::number::number;
+use crate::scene::number::{number_or_nan, parsed};
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use crate::scene::symbols::Symbols;
@@ -54,53 +55,39 @@ pub(in super::super) fn frame(
     input: &mut Input,
     context: &mut Context,
 ) -> Result<Option<Scene>, ReadError> {
-    let Some((atoms, first, cell)) = header(input)? else { return Ok(None) };
+    let Some((stated, cell)) = header(input)? else { return Ok(None) };
     let heading = input.expect("ITEM: ATOMS")?;
-    if atoms == 0 {
-        let what = "a frame without atoms";
-        return Err(ReadError::at(input.source(), first, 1, what).of_empty_frame());
+    if stated.count == 0 {
+        return Err(stated.none(input.source(), "a frame without atoms"));
     }
     let columns = columns(&heading)?;
     context.notes.further_columns(columns.further);
-    let mut particles = Particles { symbols: Symbols::Numbers, ..Particles::from(context.fixed) };
     let has_element = columns.list.iter().any(|(kind, _)| *kind == Kind::Element);
-    if has_element {
-        particles.symbols = Symbols::Elements;
-    }
+    let symbols = if has_element { Symbols::Elements } else { Symbols::Numbers };
+    let mut particles = Particles { symbols, ..Particles::from(context.fixed) };
     let numbers = columns.list.iter().filter(|(kind, _)| *kind == Kind::Number);
-    particles.columns = numbers
-        .map(|(_, name)| NumberColumn { name: name.as_str().into(), values: Vec::new() })
-        .collect();
+    particles.columns = numbers.map(|(_, name)| NumberColumn::named(name.as_str())).collect();
     let mut ids = Vec::new();
-    for atom in 0..atoms {
-        let ends =
-            || format!("the file ends after {atom} of the {atoms} atoms that line {first} says");
-        let Some(line) = input.line()? else { return Err(input.ends(ends())) };
+    for atom in 0..stated.count {
+        let line = stated.next(input, atom)?;
         let (mut words, mut position, mut column) = (Words::of(line), [0.0; 3], 0);
         for (kind, name) in &columns.list {
-            let (byte, word) = words.expect(name)?;
+            let word = words.expect(name)?;
             match *kind {
-                Kind::Position(axis) => {
-                    position[axis] = coordinate(&line, byte, word, name)?;
-                }
-                Kind::Id => ids.push(id(&line, byte, word)?),
+                Kind::Position(axis) => position[axis] = word.coordinate(name)?,
+                Kind::Id => ids.push(id(&word)?),
                 Kind::Type => {
-                    particles.naming(Naming::Type).push(word);
+                    particles.naming(Naming::Type).push(word.bytes);
                     if !has_element {
-                        particles.kind(word, line.number);
+                        particles.kind(word.bytes, line.number);
                     }
                 }
-                Kind::Element => particles.kind(word, line.number),
-                Kind::Molecule => particles.naming(Naming::Molecule).push(word),
-                Kind::Radius => {
-                    particles.radii.push(single(&line, byte, word, name, 1.0)?.abs());
-                }
-                Kind::Diameter => {
-                    particles.radii.push(single(&line, byte, word, name, 0.5)?.abs());
-                }
+                Kind::Element => particles.kind(word.bytes, line.number),
+                Kind::Molecule => particles.naming(Naming::Molecule).push(word.bytes),
+                Kind::Radius => particles.radii.push(word.single(name, 1.0)?.abs()),
+                Kind::Diameter => particles.radii.push(word.single(name, 0.5)?.abs()),
                 Kind::Number => {
-                    let value = number(word).map_or(f32::NAN, |value| value as f32);
-                    particles.columns[column].values.push(value);
+                    particles.columns[column].values.push(number_or_nan(word.bytes));
                     column += 1;
                 }
                 Kind::Further(count) => {
@@ -122,26 +109,22 @@ pub(in super::super) fn frame(
     }
     // Where a file grows, or in a pipe, this is left to whoever reads on: the next line may not be whole yet.
     if !context.follows && input.can_be_read_again() {
-        check_next(input, (atoms, first), columns.count)?;
+        check_next(input, stated, columns.count)?;
     }
     particles.sort_by(&ids);
     particles.finish(&mut context.notes, input.source()).map(Some)
 }
 
 /// What follows may be another frame, or what a run that was cut off has left of it, but not another atom of so many words.
-fn check_next(
-    input: &mut Input,
-    (atoms, first): (usize, usize),
-    words: usize,
-) -> Result<(), ReadError> {
+fn check_next(input: &mut Input, stated: Stated, words: usize) -> Result<(), ReadError> {
     if input.is_over_but_blanks()? {
         return Ok(());
     }
     let line = input.expect("ITEM:")?;
-    let count = line.bytes.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).count();
-    if count >= words && !line.bytes.starts_with(b"ITEM:") {
+    if split(line.bytes).count() >= words && !line.bytes.starts_with(b"ITEM:") {
+        let Stated { count, line: first, .. } = stated;
         let what = format!(
-            "{} where an ITEM: should be; the number of atoms in line {first} is {atoms}",
+            "{} where an ITEM: should be; the number of atoms in line {first} is {count}",
             excerpt(line.bytes)
         );
         return Err(line.error(0, what));
@@ -155,24 +138,19 @@ fn check_next(
 /// # Errors
 /// [`ReadError`] if it is no valid frame.
 pub(in super::super) fn skip(input: &mut Input) -> Result<bool, ReadError> {
-    let Some((atoms, first, _)) = header(input)? else { return Ok(false) };
-    for line in 0..=atoms {
-        if input.line()?.is_none() {
-            let atom = line.saturating_sub(1);
-            return Err(input.ends(format!(
-                "the file ends after {atom} of the {atoms} atoms that line {first} says"
-            )));
-        }
-    }
+    let Some((stated, _)) = header(input)? else { return Ok(false) };
+    // The names of columns.
+    stated.next(input, 0)?;
+    stated.skip(input)?;
     Ok(true)
 }
 
-/// Reads up to `ITEM: ATOMS`, which is next then. Returns how many atoms there are, the line that says so, and the box.
-fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> {
+/// Reads up to `ITEM: ATOMS`, which is next then. Returns how many atoms there are, and the box.
+fn header(input: &mut Input) -> Result<Option<(Stated, Cell)>, ReadError> {
     if input.is_over_but_blanks()? {
         return Ok(None);
     }
-    let (mut atoms, mut cell) = (None, Cell::default());
+    let (mut stated, mut cell) = (None, Cell::default());
     loop {
         let line = input.expect("ITEM: ATOMS")?;
         let Some(item) = line.bytes.strip_prefix(b"ITEM: ") else {
@@ -180,18 +158,12 @@ fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> 
         };
         if item.starts_with(b"ATOMS") {
             input.give_back();
-            let Some((atoms, first)) = atoms else {
+            let Some(stated) = stated else {
                 return Err(input.ends("ITEM: ATOMS before ITEM: NUMBER OF ATOMS"));
             };
-            return Ok(Some((atoms, first, cell)));
+            return Ok(Some((stated, cell)));
         } else if item.starts_with(b"NUMBER OF ATOMS") {
-            let line = input.expect("the number of atoms")?;
-            let Some(found) = count(line.trimmed()) else {
-                return Err(
-                    line.error(0, format!("{} is no number of atoms", excerpt(line.trimmed())))
-                );
-            };
-            atoms = Some((found, line.number));
+            stated = Some(Stated::atoms(&input.expect("the number of atoms")?)?);
         } else if item.starts_with(b"BOX BOUNDS") {
             let is_general = item.split(u8::is_ascii_whitespace).any(|word| word == b"origin");
             cell = Cell::read(input, is_general)?;
@@ -204,8 +176,7 @@ fn header(input: &mut Input) -> Result<Option<(usize, usize, Cell)>, ReadError> 
 
 fn columns(line: &Line<'_>) -> Result<Columns, ReadError> {
     let text = line.bytes.strip_prefix(b"ITEM: ATOMS").unwrap_or_default();
-    let names = || text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-    let has = |name: &str| names().any(|other| other == name.as_bytes());
+    let has = |name: &str| split(text).any(|other| other == name.as_bytes());
     // Wrapped before unwrapped, plain before scaled: positions that are written twice are taken once.
     let sets = [["x", "y", "z"], ["xu", "yu", "zu"], ["xs", "ys", "zs"], ["xsu", "ysu", "zsu"]];
     let Some(set) = sets.iter().position(|set| set.iter().all(|&name| has(name))) else {
@@ -226,7 +197,7 @@ fn columns(line: &Line<'_>) -> Result<Columns, ReadError> {
     };
     let mut columns = Columns { are_scaled: set >= 2, ..Columns::default() };
     let (mut found, mut numbers) = (Vec::new(), 0);
-    for name in names() {
+    for name in split(text) {
         columns.count += 1;
         // The second column of a name is a number like any other.
         let kind = Some(kind(name)).filter(|kind| !found.contains(kind)).unwrap_or(Kind::Number);
@@ -256,7 +227,6 @@ impl Columns {
 }
 
 /// The number of an atom.
-pub(super) fn id(line: &Line<'_>, byte: usize, word: &[u8]) -> Result<i64, ReadError> {
-    let id = std::str::from_utf8(word).ok().and_then(|text| text.parse().ok());
-    id.ok_or_else(|| line.error(byte, format!("{} is no id", excerpt(word))))
+pub(super) fn id(word: &Word<'_>) -> Result<i64, ReadError> {
+    parsed(word.bytes).ok_or_else(|| word.error(format!("{} is no id", excerpt(word.bytes))))
 }

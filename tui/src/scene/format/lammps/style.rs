@@ -1,7 +1,8 @@
 //! LAMMPS's atom styles: which column of the section `Atoms` is what. (LAMMPS's manual, the command that reads data.)
 
+use super::super::words::split;
 use crate::scene::input::Line;
-use crate::scene::number::number;
+use crate::scene::number::{number, parsed};
 
 /// Which column is what; the first is the id.
 #[derive(Clone, Copy, Debug)]
@@ -50,10 +51,8 @@ impl Style {
     /// The style that the number of columns of a line tells. LIGGGHTS, which names no style, has spheres.
     pub(super) fn of_columns(line: &Line<'_>) -> Option<Self> {
         let text = line.bytes.split(|&byte| byte == b'#').next().unwrap_or_default();
-        let words: Vec<&[u8]> =
-            text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
-        let is_integer =
-            |word: &[u8]| std::str::from_utf8(word).is_ok_and(|text| text.parse::<i64>().is_ok());
+        let words: Vec<&[u8]> = split(text).collect();
+        let is_integer = |word: &[u8]| parsed::<i64>(word).is_some();
         let images =
             words.len() >= 8 && words[words.len() - 3..].iter().all(|word| is_integer(word));
         match words.len() - if images { 3 } else { 0 } {

@@ -80,10 +80,10 @@ impl Component {
                 let what = format!("{} values of an atom that has {count}", row.words.len());
                 return Err(wrong(what));
             }
-            table.add(row, heading.line, wrong)?;
+            table.add(row, heading.line).map_err(wrong)?;
         } else {
             read_rows(input, count, |line, row| {
-                table.add(row, line.number, |what| line.error(0, what))?;
+                table.add(row, line.number).map_err(|what| line.error(0, what))?;
                 Ok(true)
             })?;
         }
@@ -133,12 +133,10 @@ impl Table {
     }
 
     /// Adds the atom of a row, which is in `line`.
-    fn add(
-        &mut self,
-        row: &Row,
-        line: usize,
-        wrong: impl Fn(String) -> ReadError,
-    ) -> Result<(), ReadError> {
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    fn add(&mut self, row: &Row, line: usize) -> Result<(), String> {
         for (place, component) in self.places.iter().zip(&mut self.components) {
             let words = place.map(|column| row.value(Some(column)));
             if words.iter().any(|word| word.is_empty()) {
@@ -148,8 +146,8 @@ impl Table {
             let mut center = DVec3::ZERO;
             for (axis, word) in words.into_iter().enumerate() {
                 let value = number(word).filter(|value| (*value as f32).is_finite());
-                center[axis] = value
-                    .ok_or_else(|| wrong(format!("{} is no finite coordinate", excerpt(word))))?;
+                center[axis] =
+                    value.ok_or_else(|| format!("{} is no finite coordinate", excerpt(word)))?;
             }
             let particles = &mut component.particles;
             particles.center(center);

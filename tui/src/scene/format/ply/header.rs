@@ -1,6 +1,6 @@
 //! The header of a PLY file: how it is written, and which elements follow.
 
-use super::super::words::{count, excerpt};
+use super::super::words::{count, excerpt, split};
 use crate::scene::input::Input;
 use crate::scene::read_error::ReadError;
 
@@ -85,33 +85,28 @@ pub(super) fn header(input: &mut Input) -> Result<(Encoding, Vec<Element>), Read
     input.expect("ply")?;
     loop {
         let line = input.expect("end_header")?;
-        let words: Vec<&[u8]> =
-            line.bytes.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).collect();
-        match words.as_slice() {
+        let wrong =
+            |text: &[u8], what: &str| Err(line.error(0, format!("{} {what}", excerpt(text))));
+        match split(line.bytes).collect::<Vec<_>>().as_slice() {
             [b"end_header"] => break,
             [b"comment" | b"obj_info", ..] | [] => {}
             [b"format", name, b"1.0"] => {
-                encoding = match *name {
-                    b"ascii" => Some(Encoding::Ascii),
-                    b"binary_little_endian" => Some(Encoding::Little),
-                    b"binary_big_endian" => Some(Encoding::Big),
-                    _ => None,
-                };
-                if encoding.is_none() {
-                    return Err(line.error(0, format!("the format {} is not known", excerpt(name))));
-                }
+                encoding = Some(match *name {
+                    b"ascii" => Encoding::Ascii,
+                    b"binary_little_endian" => Encoding::Little,
+                    b"binary_big_endian" => Encoding::Big,
+                    _ => {
+                        let what = format!("the format {} is not known", excerpt(name));
+                        return Err(line.error(0, what));
+                    }
+                });
             }
             [b"element", name, number] => {
                 let Some(count) = count(number) else {
-                    return Err(
-                        line.error(0, format!("{} is no number of elements", excerpt(number)))
-                    );
+                    return wrong(number, "is no number of elements");
                 };
-                elements.push(Element {
-                    is_vertex: *name == b"vertex",
-                    count,
-                    properties: Vec::new(),
-                });
+                let (is_vertex, properties) = (*name == b"vertex", Vec::new());
+                elements.push(Element { is_vertex, count, properties });
             }
             [b"property", rest @ ..] => {
                 let property = match rest {
@@ -124,16 +119,12 @@ pub(super) fn header(input: &mut Input) -> Result<(Encoding, Vec<Element>), Read
                 };
                 let (Some((kind, list, name)), Some(element)) = (property, elements.last_mut())
                 else {
-                    return Err(line.error(0, format!("{} is no property", excerpt(line.bytes))));
+                    return wrong(line.bytes, "is no property");
                 };
                 let name = String::from_utf8_lossy(name).into_owned();
                 element.properties.push(Property { name, kind, list });
             }
-            _ => {
-                return Err(
-                    line.error(0, format!("{} is not known in a header", excerpt(line.bytes)))
-                );
-            }
+            _ => return wrong(line.bytes, "is not known in a header"),
         }
     }
     let encoding =

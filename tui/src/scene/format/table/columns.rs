@@ -90,11 +90,9 @@ impl Columns {
             Some(chosen) => {
                 // Where all are numbers, a header's field that looks like one of them is not meant.
                 let has_names = is_header && numbered(chosen).is_none();
-                let numbers: Result<Vec<usize>, String> = chosen
-                    .split(',')
-                    .map(|word| column_of(names, has_names, word.trim()))
-                    .collect();
-                let numbers = numbers?;
+                let column = |word: &str| column_of(names, has_names, word.trim());
+                let numbers: Vec<usize> =
+                    chosen.split(',').map(column).collect::<Result<_, _>>()?;
                 let (&[x, y, z] | &[x, y, z, _]) = numbers.as_slice() else {
                     let what = "--columns: three for x, y and z, and perhaps one for the radius";
                     return Err(what.to_owned());
@@ -104,23 +102,12 @@ impl Columns {
             }
             None if is_header => {
                 let axis = |axis: &str| {
-                    named(&[
-                        axis,
-                        &format!("pos_{axis}"),
-                        &format!("p{axis}"),
-                        &format!("coord_{axis}"),
-                    ])
+                    let names = ["", "pos_", "p", "coord_"].map(|before| format!("{before}{axis}"));
+                    named(&names.each_ref().map(String::as_str))
                 };
                 let (Some(x), Some(y), Some(z)) = (axis("x"), axis("y"), axis("z")) else {
-                    let names: Vec<String> = names
-                        .iter()
-                        .take(12)
-                        .map(|name| String::from_utf8_lossy(name).into_owned())
-                        .collect();
-                    return Err(format!(
-                        "no columns x, y, z in {}; --columns names others",
-                        excerpt(names.join(",").as_bytes())
-                    ));
+                    let first = excerpt(&names[..names.len().min(12)].join(&b','));
+                    return Err(format!("no columns x, y, z in {first}; --columns names others"));
                 };
                 columns.position = [x, y, z];
                 columns.radius = named(&["radius", "rad"]);
@@ -133,11 +120,9 @@ impl Columns {
                 let mut units = lengths.map(unit).filter(|unit| !unit.is_empty());
                 let first = units.next().unwrap_or_default();
                 if let Some(other) = units.find(|unit| *unit != first) {
-                    return Err(format!(
-                        "lengths in {} and in {}; nothing is converted, --columns takes them as they are",
-                        excerpt(first),
-                        excerpt(other)
-                    ));
+                    let units = format!("{} and in {}", excerpt(first), excerpt(other));
+                    let what = "nothing is converted, --columns takes them as they are";
+                    return Err(format!("lengths in {units}; {what}"));
                 }
                 if columns.radius.is_none() {
                     // In another unit it is a number like any other.
@@ -179,33 +164,29 @@ impl Columns {
         };
         let others: Vec<usize> = (0..names.len()).filter(is_other).collect();
         columns.further = others.len().saturating_sub(MOST_KEPT);
-        let kept: Vec<(usize, Box<str>)> = others
-            .into_iter()
-            .take(MOST_KEPT)
-            .map(|column| {
+        let name_of = |column: usize| -> Box<str> {
+            match names[column] {
+                name if is_header && !name.is_empty() => String::from_utf8_lossy(name).into(),
                 // pandas writes its index without a name.
-                let name = if is_header && !names[column].is_empty() {
-                    String::from_utf8_lossy(names[column]).into()
-                } else {
-                    format!("{}", column + 1).into()
-                };
-                (column, name)
-            })
-            .collect();
-        columns.kept = kept;
-        let color = columns.color.into_iter().flatten();
-        let sizes = columns.radius.or(columns.diameter);
-        let all = columns.position.into_iter().chain(sizes).chain(columns.kind).chain(color);
-        let all = all.chain(columns.kept.iter().map(|(column, _)| *column));
-        columns.most = all.max().unwrap_or(0) + 1;
+                _ => (column + 1).to_string().into(),
+            }
+        };
+        let kept = others.into_iter().take(MOST_KEPT).map(|column| (column, name_of(column)));
+        columns.kept = kept.collect();
+        let kept = columns.kept.iter().map(|(column, _)| *column);
+        columns.most = columns.numbers().chain(columns.kind).chain(kept).max().unwrap_or(0) + 1;
         Ok(columns)
+    }
+
+    /// The columns in which each row must have a number.
+    fn numbers(&self) -> impl Iterator<Item = usize> {
+        let sizes = self.radius.into_iter().chain(self.diameter);
+        self.position.into_iter().chain(sizes).chain(self.color.into_iter().flatten())
     }
 
     /// Whether each row must have a number in this column.
     fn must_be_number(&self, column: usize) -> bool {
-        self.position.contains(&column)
-            || [self.radius, self.diameter].contains(&Some(column))
-            || self.color.is_some_and(|color| color.contains(&column))
+        self.numbers().any(|number| number == column)
     }
 
     /// Leaves out a comment behind a number, whatever separates its words: they are no values. (A label may have such a sign.)

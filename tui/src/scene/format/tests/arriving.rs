@@ -1,8 +1,7 @@
 use super::*;
-use crate::scene::input::Input;
-use crate::scene::reading::frames;
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use std::fs::rename;
 use std::io::{self, Read};
 
 /// A pipe that has brought so much, in parts of so many bytes. Who asks it for more waits, perhaps for ever.
@@ -75,14 +74,13 @@ fn a_compressed_file_that_grows() {
             writer.get_ref().len()
         });
         let whole = writer.finish().expect("memory");
-        let reading = Reading { follow: true, ..Reading::default() };
-        let film = &mut frames_of(name, &whole[..lengths[0]], &reading);
+        let film = &mut followed(name, &whole[..lengths[0]]);
         let lengths = [lengths.as_slice(), &[whole.len()]].concat();
         for (length, there) in lengths.into_iter().zip([0, 1, 1, 1, 2, 2]) {
             file(name, &whole[..length]);
             for index in 0..3 {
-                let scene = film.read(index).unwrap_or_else(|error| panic!("{name}: {error}"));
-                assert_eq!(scene.is_some(), index < there, "{name}: {index} after {length}");
+                let is_there = frame(film, index).is_some();
+                assert_eq!(is_there, index < there, "{name}: {index} after {length}");
             }
         }
     }
@@ -94,8 +92,54 @@ fn a_compressed_file_that_is_cut_has_frames() {
     let text: String =
         (0..50).map(|index| format!("1\n\nC {index} {} 0\n", index * 7919 % 1000)).collect();
     let whole = gz(text.as_bytes());
-    let film = &mut frames_of("cut-film.xyz.gz", &whole[..whole.len() - 9], &Reading::default());
-    assert!(film.read(0).unwrap_or_else(|error| panic!("{error}")).is_some());
-    let message = film.read(50).expect_err("cut").to_string();
+    let film = &mut film("cut-film.xyz.gz", &whole[..whole.len() - 9]);
+    assert!(frame(film, 0).is_some());
+    let message = error_in(film, 50);
     assert!(message.contains("the compressed data ends early"), "{message}");
+}
+
+/// Frames of an atom.
+fn atoms(count: usize) -> String {
+    (0..count).map(|index| format!("1\n\nC {index} 0 0\n")).collect()
+}
+
+/// Who copies a file over another cuts it, and it grows again; others put a new one in its place.
+#[test]
+fn a_file_that_is_written_anew_goes_on_where_it_was() {
+    let copy = |count: usize| file("anew.xyz", atoms(count));
+    let path = copy(3);
+    let replace = |text: String| rename(file("anew.new", text), &path).expect("the file");
+    let frames = &mut followed("anew.xyz", atoms(3));
+    let mut x = |index| centers_in(frames, index).map(|centers| centers[0][0]);
+    // All three are in the buffer then.
+    assert_eq!(x(0), Some(0.0));
+    for count in [0, 1] {
+        copy(count);
+        assert_eq!(x(1), None, "{count}");
+    }
+    copy(3);
+    assert_eq!([x(1), x(2), x(3)], [Some(1.0), Some(2.0), None]);
+    for count in [0, 2, 3] {
+        copy(count);
+        assert_eq!(x(3), None, "{count}");
+    }
+    copy(4);
+    assert_eq!([x(3), x(4)], [Some(3.0), None]);
+    replace(atoms(2));
+    assert_eq!([x(4), x(0)], [None, None]);
+    replace(atoms(5));
+    assert_eq!([x(4), x(0), x(5)], [Some(4.0), Some(0.0), None]);
+    replace(atoms(6).replace('C', "O"));
+    let error = error_in(frames, 5);
+    assert!(error.ends_with(": the file was written anew, with other contents"), "{error}");
+}
+
+#[test]
+fn a_file_that_was_empty_may_be_compressed() {
+    let frames = &mut followed("empty.xyz.gz", "");
+    assert!(frame(frames, 0).is_none());
+    file("empty.xyz.gz", gz(atoms(50).as_bytes()));
+    for index in 0..=50 {
+        assert_eq!(frame(frames, index).is_some(), index < 50, "{index}");
+    }
 }

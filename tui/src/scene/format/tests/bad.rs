@@ -1,45 +1,37 @@
 use super::*;
-use crate::scene::input::{Input, LONGEST_LINE};
+use crate::scene::input::LONGEST_LINE;
 use std::io::{self, Read};
-use std::time::{Duration, Instant};
 
 #[test]
 fn a_count_that_lies() {
-    assert_eq!(
-        error("4\n\nH 0 0 0\n"),
-        "f:4:1: the file ends after 1 of the 4 atoms that line 1 says"
-    );
-    assert!(error("18446744073709551615\n\nH 0 0 0\n").contains("after 1 of"));
-    assert!(error("18446744073709551616\n\nH 0 0 0\n").starts_with("f:1:1: "));
+    let ends = "f:4:1: the file ends after 1 of the 4 atoms that line 1 says";
+    assert_eq!(error("4\n\nH 0 0 0\n"), ends);
+    wrong("18446744073709551615\n\nH 0 0 0\n", "after 1 of");
+    wrong("18446744073709551616\n\nH 0 0 0\n", "f:1:1: ");
     let data = "LAMMPS data\n\n1 atoms\n\nAtoms # atomic\n\n1 1 0 0 0\n\n# a comment\n2 1 1 0 0\n";
     assert_eq!(error(data), "f:10:1: one atom more than the 1 that line 3 says");
     assert_eq!(error("1"), "f:2:1: the file ends before its comment");
     assert_eq!(error("0\nnothing\n"), "f:1:1: a molecule without atoms");
     assert_eq!(error(""), "f: the file is empty");
-    assert!(error("-3\n\n").starts_with("f:1:1: "));
+    wrong("-3\n\n", "f:1:1: ");
     let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n9\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id type x y z\n1 1 0 0 0\n";
     assert_eq!(error(dump), "f:11:1: the file ends after 1 of the 9 atoms that line 4 says");
-    let more = "f:4:1: one atom more than the 1 that line 1 says";
-    assert_eq!(error("1\n\nH 0 0 0\nH 0 0 1\n"), more);
+    let two = "1\n\nH 0 0 0\nH 0 0 1\n";
+    let more = ":4:1: one atom more than the 1 that line 1 says";
+    assert_eq!(error(two), format!("f{more}"));
     // Of a file, where looking at the next line waits for nothing; and not at what a run that was cut off has left.
-    let more = frames_of("one-more.xyz", b"1\n\nH 0 0 0\nH 0 0 1\n", &Reading::default()).read(0);
-    let wrong = more.expect_err("an atom more").to_string();
-    assert!(wrong.ends_with(".xyz:4:1: one atom more than the 1 that line 1 says"), "{wrong}");
+    let message = error_in(&mut film("one-more.xyz", two), 0);
+    assert!(message.ends_with(&format!(".xyz{more}")), "{message}");
     let one = dump.replace("\n9\n", "\n1\n");
-    let frame = |end: &str| {
-        frames_of("count.dump", (one.clone() + end).as_bytes(), &Reading::default()).read(0)
-    };
-    let wrong = frame("2 1 0 0 0\n").expect_err("an atom more").to_string();
+    let with = |end: &str| film("count.dump", one.clone() + end);
+    let message = error_in(&mut with("2 1 0 0 0\n"), 0);
     let what = "11:1: \"2 1 0 0 0\" where an ITEM: should be; the number of atoms in line 4 is 1";
-    assert!(wrong.ends_with(what), "{wrong}");
+    assert!(message.ends_with(what), "{message}");
     for end in ["", "IT", "\0\0\0", "ITEM: TIMESTEP\n"] {
-        let scene = frame(end).expect("a frame").expect("a frame");
+        let scene = frame(&mut with(end), 0).expect("a frame");
         assert_eq!(scene.spheres().len(), 1, "{end:?}");
     }
-    assert!(
-        error("t\n 2\n    1SOL     OW    1   0.000   1.624   1.679\n")
-            .contains("ends after 1 of the 2")
-    );
+    wrong("t\n 2\n    1SOL     OW    1   0.000   1.624   1.679\n", "ends after 1 of the 2");
     let gro = |end: &str| format!("t\n 1\n    1SOL     OW    1   0.000   1.624   1.679\n{end}\n");
     assert_eq!(
         error(gro("    2SOL     OW    2   0.000   1.624   1.679\n   1 1 1")),
@@ -50,7 +42,6 @@ fn a_count_that_lies() {
     }
 }
 
-/// The time grows with the file, not with its square.
 #[test]
 fn a_residue_of_many_alternate_locations() {
     let count = 300_000_u32;
@@ -66,27 +57,24 @@ fn a_residue_of_many_alternate_locations() {
         .concat();
     let rows: String = (0..count).map(|index| format!("C 0 0 0 A {}\n", name(index))).collect();
     for text in [pdb, format!("data_x\nloop_\n{tags}{rows}")] {
-        let begun = Instant::now();
-        assert_eq!(good(text).spheres().len(), count as usize);
-        let took = begun.elapsed();
-        assert!(took < Duration::from_secs(20), "{took:?}");
+        assert_eq!(soon(|| good(text)).spheres().len(), count as usize);
     }
 }
 
 #[test]
 fn coordinates_are_finite_numbers() {
     assert_eq!(error("1\n\nH 0 nan 0\n"), "f:3:5: y is \"nan\": not finite in single precision");
-    assert!(error("1\n\nH inf 0 0\n").starts_with("f:3:3: x is"));
-    assert!(error("1\n\nH 0 0 1e39\n").starts_with("f:3:7: z is"));
+    wrong("1\n\nH inf 0 0\n", "f:3:3: x is");
+    wrong("1\n\nH 0 0 1e39\n", "f:3:7: z is");
     assert_eq!(error("1\n\nH 0 0 zero\n"), "f:3:7: z is \"zero\": no number");
     assert_eq!(error("1\n\nH 0 0\n"), "f:3:6: z is missing");
     assert_eq!(error("1\n\n\n"), "f:3:1: an element is missing");
-    assert!(error("x,y,z\n1,NaN,2\n").starts_with("f:2:3: y is \"NaN\": not finite"));
-    assert!(error("x,y,z\n1,,2\n").starts_with("f:2:3: y is \"\": no number"));
-    assert!(error("x,y,z\n1,2\n").contains("z is missing"));
+    wrong("x,y,z\n1,NaN,2\n", "f:2:3: y is \"NaN\": not finite");
+    wrong("x,y,z\n1,,2\n", "f:2:3: y is \"\": no number");
+    wrong("x,y,z\n1,2\n", "z is missing");
     let nan: Vec<u8> = [0.0, f32::NAN, 0.0].iter().flat_map(|value| value.to_le_bytes()).collect();
-    assert!(error(npy("<f4", "False", "(1, 3)", &nan)).contains("row 0"));
-    assert!(error(PDB.replace("  11.104", "     nan")).starts_with("f:4:31: x is"));
+    wrong(npy("<f4", "False", "(1, 3)", &nan), "row 0");
+    wrong(PDB.replace("  11.104", "     nan"), "f:4:31: x is");
 }
 
 /// The largest numbers there are can be drawn.
@@ -99,20 +87,20 @@ fn far_away_is_no_error() {
 
 #[test]
 fn properties_that_lie() {
-    let message =
-        |properties: &str, atom: &str| error(format!("1\nProperties={properties}\n{atom}\n"));
-    assert!(message("species:S:1:forces:R:3", "H 0 0 0").starts_with("f:2:12: Properties="));
-    assert!(message("species:S:1:pos:R:2", "H 0 0").contains("positions have 3"));
-    assert!(message("species:S:1:pos:R", "H 0 0 0").contains("not name:type:columns"));
-    assert!(message("species:S:one:pos:R:3", "H 0 0 0").contains("no name:type:columns"));
-    assert!(message("species:Q:1:pos:R:3", "H 0 0 0").contains("no name:type:columns"));
-    assert!(message("pos:R:3:pos:R:3", "0 0 0 0 0 0").contains("second column"));
-    assert!(message("species:S:1:pos:R:3:q:R:1", "H 0 0 0").starts_with("f:3:8: q is missing"));
-    assert!(message("species:S:1:pos:R:3", "H 0 0 0 7").starts_with("f:3:9: more columns"));
-    assert!(
-        message("species:S:1:pos:R:3:v:R:99999999999", "H 0 0 0").contains("no name:type:columns")
-    );
-    assert!(message("species:S:1:pos:R:3:radius:R:1", "H 0 0 0 -1").contains("negative"));
+    for (properties, atom, part) in [
+        ("species:S:1:forces:R:3", "H 0 0 0", "f:2:12: Properties="),
+        ("species:S:1:pos:R:2", "H 0 0", "positions have 3"),
+        ("species:S:1:pos:R", "H 0 0 0", "not name:type:columns"),
+        ("species:S:one:pos:R:3", "H 0 0 0", "no name:type:columns"),
+        ("species:Q:1:pos:R:3", "H 0 0 0", "no name:type:columns"),
+        ("pos:R:3:pos:R:3", "0 0 0 0 0 0", "second column"),
+        ("species:S:1:pos:R:3:q:R:1", "H 0 0 0", "f:3:8: q is missing"),
+        ("species:S:1:pos:R:3", "H 0 0 0 7", "f:3:9: more columns"),
+        ("species:S:1:pos:R:3:v:R:99999999999", "H 0 0 0", "no name:type:columns"),
+        ("species:S:1:pos:R:3:radius:R:1", "H 0 0 0 -1", "negative"),
+    ] {
+        wrong(format!("1\nProperties={properties}\n{atom}\n"), part);
+    }
 }
 
 /// So many bytes without an end of line, made as they are read.
@@ -161,12 +149,8 @@ fn damaged_and_growing_gz() {
         (0..5000).map(|index| format!("H {index} 0 {}\n", index * 7919 % 1000)).collect();
     let whole = gz(format!("5000\n\n{text}").as_bytes());
     // The end of a pipe is not waited for once the frame is whole.
-    let of_file = |length: usize| {
-        let cut = frames_of("cut.xyz.gz", &whole[..length], &Reading::default()).read(0);
-        cut.expect_err("cut").to_string()
-    };
     for length in [whole.len() - 9, whole.len() - 1] {
-        let message = of_file(length);
+        let message = error_in(&mut film("cut.xyz.gz", &whole[..length]), 0);
         assert!(message.contains("the compressed data ends early"), "{length}: {message}");
     }
     for length in [11, whole.len() / 2] {
@@ -180,14 +164,13 @@ fn damaged_and_growing_gz() {
     for byte in &mut damaged[whole.len() / 2..whole.len() / 2 + 40] {
         *byte ^= 0x55;
     }
-    assert!(frames_of("damaged.xyz.gz", &damaged, &Reading::default()).read(0).is_err());
+    assert!(film("damaged.xyz.gz", &damaged).read(0).is_err());
     let bz = bz2(text.as_bytes());
     assert!(scene(&bz[..bz.len() / 2]).is_err());
     // A gigabyte of zeros in a megabyte, and lines that never end to come.
     let zeros = gz(&vec![b'\n'; 1 << 20]);
     let bomb: Vec<u8> = std::iter::repeat_n(zeros, 40).flatten().collect();
-    let message = error([gz(b"data_x\n"), bomb].concat());
-    assert!(message.contains("grows to more than 200 times its size"), "{message}");
+    wrong([gz(b"data_x\n"), bomb].concat(), "grows to more than 200 times its size");
 }
 
 #[test]
@@ -197,37 +180,30 @@ fn an_empty_model() {
     assert_eq!(scene.spheres().len(), 3);
     assert_eq!(error(empty), "f: no ATOM and no HETATM");
     assert_eq!(error("data_x\n_a.b c\n"), "f: no loop over _atom_site");
-    assert!(
-        error("data_x\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n#\n")
-            .starts_with("f: no")
-    );
-    assert!(
-        error("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n")
-            .contains("no vertices")
-    );
-    assert!(error(npy("<f4", "False", "(0, 3)", b"")).contains("without rows"));
-    assert!(error("x,y,z\n").contains("no line with numbers"));
-    assert!(error("<robot name='r'/>").contains("without spheres"));
+    let axes = "_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n";
+    wrong(format!("data_x\nloop_\n{axes}#\n"), "f: no");
+    let ply = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n";
+    wrong(ply, "no vertices");
+    wrong(npy("<f4", "False", "(0, 3)", b""), "without rows");
+    wrong("x,y,z\n", "no line with numbers");
+    wrong("<robot name='r'/>", "without spheres");
 }
 
 #[test]
 fn arrays_that_lie() {
-    assert!(error(npy("<f4", "False", "(4611686018427387904, 4)", b"")).contains("any file"));
-    assert!(error(npy("<f4", "False", "(1000000000, 4)", b"")).contains("fewer bytes"));
-    assert!(error(npy("<f4", "True", "(1000000000, 4)", b"")).contains("fewer bytes"));
-    assert!(error(npy("<f4", "False", "(1, 4)", &[0; 17])).contains("more bytes"));
-    assert!(error(npy("<i4", "False", "(1, 4)", &[0; 16])).contains("float32 or float64"));
-    assert!(error(npy("<f4", "False", "(1, 5)", &[0; 20])).contains("(N, 3) or (N, 4)"));
-    assert!(error(npy("<f4", "False", "(4,)", &[0; 16])).contains("two dimensions"));
-    assert!(
-        error(npy("<f4", "False", "(1, 4)", &[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 128, 191]))
-            .contains("radius")
-    );
+    wrong(npy("<f4", "False", "(4611686018427387904, 4)", b""), "any file");
+    wrong(npy("<f4", "False", "(1000000000, 4)", b""), "fewer bytes");
+    wrong(npy("<f4", "True", "(1000000000, 4)", b""), "fewer bytes");
+    wrong(npy("<f4", "False", "(1, 4)", &[0; 17]), "more bytes");
+    wrong(npy("<i4", "False", "(1, 4)", &[0; 16]), "float32 or float64");
+    wrong(npy("<f4", "False", "(1, 5)", &[0; 20]), "(N, 3) or (N, 4)");
+    wrong(npy("<f4", "False", "(4,)", &[0; 16]), "two dimensions");
+    let minus_one = [0.0_f32, 0.0, 0.0, -1.0].map(f32::to_le_bytes).concat();
+    wrong(npy("<f4", "False", "(1, 4)", &minus_one), "radius");
     // The parser would take a time that grows as a power of the depth.
     for part in ["[", "{", "((),", "[')',"] {
         let nested = part.repeat(900 / part.len());
-        let message = error(npy("<f4", "False", &nested, b""));
-        assert!(message.contains("brackets is none of a plain array"), "{part}: {message}");
+        wrong(npy("<f4", "False", &nested, b""), "brackets is none of a plain array");
     }
 }
 
@@ -243,26 +219,22 @@ fn a_trajectory_that_is_none() {
     };
     let three: Vec<u8> = [0.1_f32, 0.2, 0.3].iter().flat_map(|value| value.to_be_bytes()).collect();
     assert_eq!(centers(&good(frame(1995, 1, 1, &three))), [[0.1 * 10.0, 0.2 * 10.0, 0.3 * 10.0]]);
-    assert!(error(frame(1995, 1, 2, &three)).contains("two numbers of atoms"));
-    assert!(error(frame(1995, 2, 2, &three)).contains("ends within a frame"));
+    wrong(frame(1995, 1, 2, &three), "two numbers of atoms");
+    wrong(frame(1995, 2, 2, &three), "ends within a frame");
     let huge = [vec![0; 32], 100_u32.to_be_bytes().to_vec(), vec![0; 100]].concat();
-    assert!(
-        error(frame(1995, 4_000_000_000, 4_000_000_000, &huge))
-            .contains("4000000000 atoms in 100 bytes")
-    );
+    let billions = frame(1995, 4_000_000_000, 4_000_000_000, &huge);
+    wrong(billions, "4000000000 atoms in 100 bytes");
     let longest = [&[0; 32][..], &[0xff; 8]].concat();
-    assert!(
-        error(frame(2023, u32::MAX, u32::MAX, &longest))
-            .contains("4294967295 atoms in 18446744073709551615 bytes")
-    );
+    let longest = frame(2023, u32::MAX, u32::MAX, &longest);
+    wrong(longest, "4294967295 atoms in 18446744073709551615 bytes");
     // Atoms at one point take two bits each; of more than a million each takes a byte.
     let (precision, step) = (1_f32.to_be_bytes(), 9_u32.to_be_bytes());
     let one_point =
         |bytes: u32| [&precision[..], &[0; 24], &step, &bytes.to_be_bytes(), &[0; 100]].concat();
     assert_eq!(good(frame(1995, 400, 400, &one_point(100))).spheres().len(), 400);
     for (atoms, bytes) in [(800, 100), (401, 100), (1_000_004, 1_000_000)] {
-        let message = error(frame(1995, atoms, atoms, &one_point(bytes)));
-        assert!(message.contains(&format!("{atoms} atoms in {bytes} bytes")), "{message}");
+        let lie = frame(1995, atoms, atoms, &one_point(bytes));
+        wrong(lie, &format!("{atoms} atoms in {bytes} bytes"));
     }
     for seed in 0_u8..50 {
         let noise: Vec<u8> = (0..136_u32)
@@ -275,16 +247,14 @@ fn a_trajectory_that_is_none() {
 
 #[test]
 fn what_is_known_and_not_read() {
-    assert!(error(b"PK\x03\x04............").contains("zip archive"));
-    assert!(error(b"\x89HDF\r\n\x1a\n").contains("HDF5"));
-    assert!(
-        error("//! Some text, of a program.\nfn main() {}\n")
-            .contains("unknown format; --format names one of toml, xyz, pdb")
-    );
-    assert!(error("<html></html>").contains("no <robot>"));
-    assert!(error("a,b,c\n1,2,3\n").contains("--columns names others"));
-    assert!(error("data_x\nloop_\n_atom_site_fract_x\n0.5\n").contains("fractions"));
+    wrong(b"PK\x03\x04............", "zip archive");
+    wrong(b"\x89HDF\r\n\x1a\n", "HDF5");
+    let unknown = "unknown format; --format names one of toml, xyz, pdb";
+    wrong("//! Some text, of a program.\nfn main() {}\n", unknown);
+    wrong("<html></html>", "no <robot>");
+    wrong("a,b,c\n1,2,3\n", "--columns names others");
+    wrong("data_x\nloop_\n_atom_site_fract_x\n0.5\n", "fractions");
     let component =
         "data_ALA\nloop_\n_chem_comp_atom.atom_id\n_chem_comp_atom.model_Cartn_x\nN 2.281\n";
-    assert!(error(component).starts_with("f: components without positions"));
+    wrong(component, "f: components without positions");
 }

@@ -1,10 +1,7 @@
 use super::*;
 use crate::coloring::seen::Seen;
 use crate::coloring::{ColorBy, coloring};
-use crate::scene::attributes::Naming;
-use crate::scene::input::Input;
 use clap::ValueEnum;
-use std::fs::OpenOptions;
 
 fn xyz(frames: usize) -> String {
     let frame = |index: usize| {
@@ -15,9 +12,9 @@ fn xyz(frames: usize) -> String {
 }
 
 fn first_x(frames: &mut Frames, index: usize) -> Option<f32> {
-    let scene = frames.read(index).unwrap_or_else(|error| panic!("{error}"))?;
-    assert_eq!(scene.spheres().len(), index + 1, "the count of atoms changes");
-    Some(centers(&scene)[0][0])
+    let centers = centers_in(frames, index)?;
+    assert_eq!(centers.len(), index + 1, "the count of atoms changes");
+    Some(centers[0][0])
 }
 
 #[test]
@@ -28,7 +25,7 @@ fn in_any_order_plain_and_compressed() {
         ("f.xyz.gz", gz(text.as_bytes())),
         ("f.xyz.bz2", bz2(text.as_bytes())),
     ] {
-        let frames = &mut frames_of(name, &bytes, &Reading::default());
+        let frames = &mut film(name, bytes);
         for index in [0, 1, 7, 3, 19, 0, 18, 19, 2] {
             assert_eq!(first_x(frames, index), Some(index as f32), "{name}");
         }
@@ -49,7 +46,7 @@ fn the_end_tells_how_many_there_are() {
         assert_eq!((first_x(frames, 2), frames.at()), (Some(2.0), 3));
         assert_eq!((first_x(frames, 3), frames.count()), (None, count));
     }
-    let table = &mut frames_of("count.csv", b"x,y,z\n1,2,3\n", &Reading::default());
+    let table = &mut film("count.csv", "x,y,z\n1,2,3\n");
     assert!(table.read(60).expect("no error").is_none());
     assert_eq!(table.count(), Some(1));
     assert!(table.read(0).expect("no error").is_some());
@@ -58,9 +55,8 @@ fn the_end_tells_how_many_there_are() {
 /// Whatever else is written to it.
 #[test]
 fn a_table_that_is_followed_has_one_frame() {
-    let reading = Reading { follow: true, ..Reading::default() };
     for index in [0, 3] {
-        let table = &mut frames_of("one.csv", b"x,y,z\n1,2,3\n", &reading);
+        let table = &mut followed("one.csv", "x,y,z\n1,2,3\n");
         assert_eq!((table.count(), table.follows()), (None, true));
         assert_eq!(table.read(index).expect("no error").is_some(), index == 0);
         assert_eq!((table.count(), table.follows()), (Some(1), false));
@@ -68,14 +64,14 @@ fn a_table_that_is_followed_has_one_frame() {
     }
 }
 
-fn piped(text: String, follows: bool) -> Frames {
-    let input = Input::of_reader(Box::new(Cursor::new(text.into_bytes())), "-");
-    Frames::new(input.expect("a pipe"), Format::Xyz, Default::default(), follows)
+fn piped(text: String, format: Format, follows: bool) -> Frames {
+    let input = Input::of_reader(Box::new(Cursor::new(text)), "-");
+    Frames::new(input.expect("a pipe"), format, Default::default(), follows)
 }
 
 #[test]
 fn a_pipe_goes_forward() {
-    let mut frames = piped(xyz(300), false);
+    let mut frames = piped(xyz(300), Format::Xyz, false);
     assert_eq!((first_x(&mut frames, 0), first_x(&mut frames, 250)), (Some(0.0), Some(250.0)));
     assert!(!frames.can_go_back());
 }
@@ -84,7 +80,7 @@ fn a_pipe_goes_forward() {
 #[test]
 fn a_pipe_that_is_followed_ends_where_it_ends() {
     for text in [xyz(2), xyz(2).trim_end().to_owned()] {
-        let frames = &mut piped(text, true);
+        let frames = &mut piped(text, Format::Xyz, true);
         assert_eq!((first_x(frames, 0), first_x(frames, 1)), (Some(0.0), Some(1.0)));
         assert_eq!((first_x(frames, 2), frames.follows()), (None, false));
     }
@@ -93,9 +89,9 @@ fn a_pipe_that_is_followed_ends_where_it_ends() {
 #[test]
 fn a_frame_that_is_none_has_its_line() {
     let text = xyz(2) + "3\nframe 2\nC 0 0 0\nC 0 0\n";
-    let frames = &mut frames_of("broken.xyz", text.as_bytes(), &Reading::default());
+    let frames = &mut film("broken.xyz", text);
     assert_eq!(first_x(frames, 1), Some(1.0));
-    let message = frames.read(2).expect_err("broken").to_string();
+    let message = error_in(frames, 2);
     assert!(message.contains("broken.xyz:11:"), "{message}");
 }
 
@@ -103,15 +99,13 @@ fn a_frame_that_is_none_has_its_line() {
 #[test]
 fn a_file_that_grows() {
     let (two, three) = (xyz(2), xyz(3));
-    let reading = Reading { follow: true, ..Reading::default() };
-    let frames = &mut frames_of("grows.xyz", two.as_bytes(), &reading);
-    let path = file("grows.xyz", two.as_bytes());
+    let frames = &mut followed("grows.xyz", &two);
+    let path = file("grows.xyz", &two);
     assert_eq!((first_x(frames, 0), first_x(frames, 1)), (Some(0.0), Some(1.0)));
     let more = &three.as_bytes()[two.len()..];
     for (index, byte) in more.iter().enumerate() {
         assert_eq!(first_x(frames, 2), None, "after {index} bytes");
-        let mut file = OpenOptions::new().append(true).open(&path).expect("a file");
-        file.write_all(&[*byte]).expect("written");
+        append(&path, &[*byte]);
     }
     assert_eq!(first_x(frames, 2), Some(2.0));
     assert_eq!(first_x(frames, 3), None);
@@ -122,8 +116,7 @@ fn an_empty_file_that_is_followed_has_no_frame_yet() {
     for &format in Format::value_variants().iter().filter(|format| format.has_frames()) {
         let reading = Reading { format: Some(format), follow: true, ..Reading::default() };
         let frames = &mut frames_of(&format!("empty.{format:?}"), b"", &reading);
-        let scene = frames.read(0).unwrap_or_else(|error| panic!("{format:?}: {error}"));
-        assert!(scene.is_none(), "{format:?}");
+        assert!(frame(frames, 0).is_none(), "{format:?}");
     }
 }
 
@@ -150,15 +143,12 @@ fn a_model_that_grows_is_a_frame_once_it_is_whole() {
             format!("C 0 0 0 1\nC 0 1 0 1\n#\n{table}C 1 0 0 1\nC 1 1 0 1\n#\n"),
         ),
     ] {
-        let reading = Reading { follow: true, ..Reading::default() };
-        let frames = &mut frames_of(name, head.as_bytes(), &reading);
-        let path = file(name, head.as_bytes());
+        let frames = &mut followed(name, head);
+        let path = file(name, head);
         let mut seen = Vec::new();
         for byte in rest.bytes() {
-            let mut file = OpenOptions::new().append(true).open(&path).expect("a file");
-            file.write_all(&[byte]).expect("written");
-            let scene = frames.read(seen.len()).unwrap_or_else(|error| panic!("{error}"));
-            seen.extend(scene.map(|scene| centers(&scene)));
+            append(&path, &[byte]);
+            seen.extend(centers_in(frames, seen.len()));
         }
         assert_eq!(seen, expected, "{name}");
     }
@@ -169,38 +159,34 @@ fn a_model_that_grows_is_a_frame_once_it_is_whole() {
 
 #[test]
 fn dumps_pdb_gro_and_mmcif_have_frames() {
-    let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id type x y z\n1 1 @ 0 0\n";
+    let dump = dump(BOUNDS, "id type x y z", "1 1 @ 0 0\n");
     let gro = "t\n 1\n    1SOL     OW    1   @.000   1.624   1.679\n   1 1 1\n";
-    for (name, frame, scale) in [("a.dump", dump, 1.0), ("a.gro", gro, 10.0)] {
+    for (name, frame, scale) in [("a.dump", &*dump, 1.0), ("a.gro", gro, 10.0)] {
         let text: String = (0..5).map(|index| frame.replace('@', &index.to_string())).collect();
-        let frames = &mut frames_of(name, text.as_bytes(), &Reading::default());
+        let frames = &mut film(name, text);
         for index in [0, 4, 2] {
-            let scene =
-                frames.read(index).unwrap_or_else(|error| panic!("{error}")).expect("a frame");
-            assert_eq!(centers(&scene)[0][0], scale * index as f32, "{name}");
+            let centers = centers_in(frames, index).expect("a frame");
+            assert_eq!(centers[0][0], scale * index as f32, "{name}");
         }
         assert!(frames.read(5).expect("no error").is_none());
     }
 }
 
 /// A frame of a dump with these atoms: id, molecule, type, x, y, z.
-fn dump(atoms: &[&str]) -> String {
+fn molecules(atoms: &[&str]) -> String {
     let rows: String = atoms.iter().map(|atom| format!("{atom}\n")).collect();
-    format!(
-        "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\nITEM: ATOMS id mol type x y z\n{rows}",
-        atoms.len()
-    )
+    dump(BOUNDS, "id mol type x y z", &rows)
 }
 
 /// LAMMPS writes atoms in any order, and they come and go.
 #[test]
 fn types_keep_their_colours() {
     let atoms = ["1 5 1 0 0 0", "2 4 2 9 0 0", "3 4 9 5 0 0"];
-    let text = dump(&atoms) + &dump(&[atoms[2], atoms[1], atoms[0]]) + &dump(&atoms[1..]);
-    let frames = &mut frames_of("types.dump", text.as_bytes(), &Reading::default());
-    let mut scene =
-        |index| frames.read(index).unwrap_or_else(|error| panic!("{error}")).expect("a frame");
-    let (first, other_order, without_one) = (scene(0), scene(1), scene(2));
+    let reversed = [atoms[2], atoms[1], atoms[0]];
+    let text = molecules(&atoms) + &molecules(&reversed) + &molecules(&atoms[1..]);
+    let frames = &mut film("types.dump", text);
+    let [first, other_order, without_one] =
+        [0, 1, 2].map(|index| frame(frames, index).expect("a frame"));
     assert_eq!(other_order.colors(), first.colors());
     assert_eq!(without_one.colors(), &first.colors()[1..]);
     for by in [Naming::Type, Naming::Molecule].map(ColorBy::Names) {
@@ -215,11 +201,10 @@ fn types_keep_their_colours() {
 
 #[test]
 fn a_frame_of_a_dump_without_atoms_is_passed_over_unless_it_is_shown() {
-    let text = dump(&["1 1 1 0 0 0"]) + &dump(&[]) + &dump(&["1 1 1 2 0 0"]);
-    let frames = &mut frames_of("none.dump", text.as_bytes(), &Reading::default());
-    let scene = frames.read(2).unwrap_or_else(|error| panic!("{error}")).expect("a frame");
-    assert_eq!(centers(&scene), [[2.0, 0.0, 0.0]]);
-    let message = frames.read(1).expect_err("no atoms").to_string();
+    let text = molecules(&["1 1 1 0 0 0"]) + &molecules(&[]) + &molecules(&["1 1 1 2 0 0"]);
+    let frames = &mut film("none.dump", text);
+    assert_eq!(centers_in(frames, 2), Some(vec![[2.0, 0.0, 0.0]]));
+    let message = error_in(frames, 1);
     assert!(message.ends_with("none.dump:14:1: a frame without atoms"), "{message}");
 }
 
@@ -229,23 +214,21 @@ fn gro(title: &str, x: usize) -> String {
 }
 
 fn gro_x(frames: &mut Frames, index: usize) -> Option<f32> {
-    let scene = frames.read(index).unwrap_or_else(|error| panic!("{error}"))?;
-    Some(centers(&scene)[0][0])
+    centers_in(frames, index).map(|centers| centers[0][0])
 }
 
 #[test]
 fn a_title_of_gro_may_be_blank() {
     // Blank lines before a title and at the end are no titles.
     let text = gro("", 0) + &gro("  ", 1) + &gro("t", 2) + "\n" + &gro("t", 3) + "\n \n";
-    let frames = &mut frames_of("blank.gro", text.as_bytes(), &Reading::default());
+    let frames = &mut film("blank.gro", &text);
     for index in [0, 1, 2, 3, 1, 0, 3] {
         assert!(frames.has(index).expect("no error"));
         assert_eq!(gro_x(frames, index), Some(10.0 * index as f32));
     }
     assert!(!frames.has(4).expect("no error"));
     assert_eq!(gro_x(frames, 4), None);
-    let input = Input::of_reader(Box::new(Cursor::new(text)), "-");
-    let mut pipe = Frames::new(input.expect("a pipe"), Format::Gro, Default::default(), false);
+    let mut pipe = piped(text, Format::Gro, false);
     let found: Vec<_> = (0..5).map(|index| gro_x(&mut pipe, index)).collect();
     assert_eq!(found, [Some(0.0), Some(10.0), Some(20.0), Some(30.0), None]);
 }
@@ -253,14 +236,12 @@ fn a_title_of_gro_may_be_blank() {
 /// While a blank title is all that has been written of a frame, it is not taken for the end.
 #[test]
 fn a_gro_file_that_grows() {
-    let reading = Reading { follow: true, ..Reading::default() };
-    let path = file("grows.gro", gro("", 0).as_bytes());
-    let frames = &mut frames_of("grows.gro", gro("", 0).as_bytes(), &reading);
+    let path = file("grows.gro", gro("", 0));
+    let frames = &mut followed("grows.gro", gro("", 0));
     assert_eq!(gro_x(frames, 0), Some(0.0));
     for (index, byte) in gro("", 1).bytes().enumerate() {
         assert_eq!(gro_x(frames, 1), None, "after {index} bytes");
-        let mut file = OpenOptions::new().append(true).open(&path).expect("a file");
-        file.write_all(&[byte]).expect("written");
+        append(&path, &[byte]);
     }
     assert_eq!(gro_x(frames, 1), Some(10.0));
 }
@@ -282,7 +263,7 @@ fn what_follows_the_last_model_is_no_frame() {
     };
     for (name, text) in [("models.pdb", [1, 2].map(pdb)), ("models.cif", [1, 2].map(mmcif))] {
         for (text, models) in text.iter().zip(1..) {
-            let frames = &mut frames_of(name, text.as_bytes(), &Reading::default());
+            let frames = &mut film(name, text);
             assert!(frames.read(0).expect("no error").is_some());
             assert_eq!(frames.has(1).expect("no error"), models == 2, "{text}");
             assert!(frames.notes().is_empty());

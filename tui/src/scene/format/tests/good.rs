@@ -1,5 +1,4 @@
 use super::*;
-use crate::color::Srgb;
 
 #[test]
 fn gro_in_angstrom() {
@@ -41,14 +40,10 @@ fn tables_by_header_and_without() {
     }
     let colored = good("x,y,z,r,g,b,v\n0,0,0,255,0,128,9\n1,0,0,0,255,0,8\n");
     assert_eq!(colored.colors(), [Srgb([255, 0, 128]), Srgb([0, 255, 0])]);
-    assert_eq!(colored.attributes().column("v").map(|v| v.values.clone()), Some(vec![9.0, 8.0]));
+    assert_eq!(numbers(&colored, "v"), Some(vec![9.0, 8.0]));
     for columns in ["b,c,d,a", "2,3,4,1"] {
-        let reading = Reading { columns: Some(columns.to_owned()), ..Reading::default() };
-        let mut frames = frames_of("columns.csv", b"a,b,c,d\n0.5,1,2,3\n0.25,4,5,6\n", &reading);
-        assert_eq!(
-            frames.read(0).expect("a table").map(|scene| spheres(&scene)),
-            Some(expected.to_vec())
-        );
+        let scene = by(None, columns, "a,b,c,d\n0.5,1,2,3\n0.25,4,5,6\n");
+        assert_eq!(spheres(&scene), expected, "{columns}");
     }
 }
 
@@ -60,10 +55,7 @@ fn numbers_of_columns_are_no_names_and_a_label_makes_no_header() {
         // No column has the number 0, so these are names.
         ("0,1,2", ",0,1,2\n0,1,2,3\n", vec![[1.0, 2.0, 3.0]]),
     ] {
-        let reading = Reading { columns: Some(columns.to_owned()), ..Reading::default() };
-        let scene = frames_of("labels.csv", text.as_bytes(), &reading).read(0);
-        let scene = scene.unwrap_or_else(|error| panic!("{error}")).expect("a table");
-        assert_eq!(centers(&scene), expected, "{columns}");
+        assert_eq!(centers(&by(None, columns, text)), expected, "{columns}");
     }
 }
 
@@ -76,27 +68,21 @@ fn ply_in_text_and_in_both_orders() {
     };
     let text = header("ascii") + "3 0 1 1\n1 2 -3 255 0 128 0.5\n4 5 6 0 255 0 0.25\n";
     let binary = |format: &str, is_big: bool| {
-        let mut bytes = header(format).into_bytes();
-        let mut add = |mut value: Vec<u8>| {
-            if is_big {
-                value.reverse();
-            }
-            bytes.extend(value);
-        };
-        add(vec![3]);
-        for index in [0_i32, 1, 1] {
-            add(index.to_le_bytes().to_vec());
-        }
+        let mut values = vec![vec![3]];
+        values.extend([0_i32, 1, 1].map(|index| index.to_le_bytes().to_vec()));
         for (x, y, z, color, radius) in
             [(1_f32, 2_f64, -3_i16, [255, 0, 128], 0.5_f32), (4.0, 5.0, 6, [0, 255, 0], 0.25)]
         {
-            add(x.to_le_bytes().to_vec());
-            add(y.to_le_bytes().to_vec());
-            add(z.to_le_bytes().to_vec());
-            color.iter().for_each(|channel| add(vec![*channel]));
-            add(radius.to_le_bytes().to_vec());
+            values.push(x.to_le_bytes().to_vec());
+            values.push(y.to_le_bytes().to_vec());
+            values.push(z.to_le_bytes().to_vec());
+            values.extend(color.map(|channel| vec![channel]));
+            values.push(radius.to_le_bytes().to_vec());
         }
-        bytes
+        if is_big {
+            values.iter_mut().for_each(|value| value.reverse());
+        }
+        [header(format).into_bytes(), values.concat()].concat()
     };
     for bytes in [
         text.into_bytes(),
@@ -134,32 +120,24 @@ fn npy_of_every_order_and_size() {
     let rows = [[1.0, 2.0, 3.0, 0.5], [4.0, 5.0, 6.0, 0.25]];
     let c: Vec<f64> = rows.iter().flatten().copied().collect();
     let f: Vec<f64> = (0..4).flat_map(|column| rows.map(|row| row[column])).collect();
-    let four = |values: &[f64], big: bool| -> Vec<u8> {
-        let bytes = |value: &f64| {
-            if big { (*value as f32).to_be_bytes() } else { (*value as f32).to_le_bytes() }
+    let data = |values: &[f64], descr: &str| -> Vec<u8> {
+        let bytes = |&value: &f64| match descr {
+            "<f4" => (value as f32).to_le_bytes().to_vec(),
+            ">f4" => (value as f32).to_be_bytes().to_vec(),
+            "<f8" => value.to_le_bytes().to_vec(),
+            _ => value.to_be_bytes().to_vec(),
         };
         values.iter().flat_map(bytes).collect()
     };
-    let eight = |values: &[f64], big: bool| -> Vec<u8> {
-        let bytes = |value: &f64| if big { value.to_be_bytes() } else { value.to_le_bytes() };
-        values.iter().flat_map(bytes).collect()
-    };
+    let expected = rows.map(|row| row.map(|value| value as f32));
     for (fortran, values) in [("False", &c), ("True", &f)] {
-        for (descr, data) in [
-            ("<f4", four(values, false)),
-            (">f4", four(values, true)),
-            ("<f8", eight(values, false)),
-            (">f8", eight(values, true)),
-        ] {
-            let scene = good(npy(descr, fortran, "(2, 4)", &data));
-            assert_eq!(
-                spheres(&scene),
-                rows.map(|row| row.map(|value| value as f32)),
-                "{descr} {fortran}"
-            );
+        for descr in ["<f4", ">f4", "<f8", ">f8"] {
+            let scene = good(npy(descr, fortran, "(2, 4)", &data(values, descr)));
+            assert_eq!(spheres(&scene), expected, "{descr} {fortran}");
         }
     }
-    let three = good(npy("<f4", "False", "(2, 3)", &four(&[0.0, 0.0, 0.0, 8.0, 0.0, 0.0], false)));
+    let three = data(&[0.0, 0.0, 0.0, 8.0, 0.0, 0.0], "<f4");
+    let three = good(npy("<f4", "False", "(2, 3)", &three));
     assert_eq!(centers(&three), [[0.0; 3], [8.0, 0.0, 0.0]]);
     assert!(spheres(&three)[0][3] > 0.0);
 }
@@ -190,28 +168,17 @@ fn compressed_by_its_bytes_from_a_pipe_too() {
 
 #[test]
 fn toml_still_is() {
-    assert_eq!(good("[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n").spheres().len(), 1);
-    assert_eq!(
-        good("# a comment\nshadows = true\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n")
-            .spheres()
-            .len(),
-        1
-    );
+    for before in ["", "# a comment\nshadows = true\n"] {
+        let scene = good(format!("{before}[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n"));
+        assert_eq!(scene.spheres().len(), 1, "{before}");
+    }
 }
 
 #[test]
 fn what_is_ignored_is_said() {
-    let notes = |name: &str, text: &str| {
-        let mut frames = frames_of(name, text.as_bytes(), &Reading::default());
-        frames.read(0).unwrap_or_else(|error| panic!("{error}")).expect("a frame");
-        frames.notes()
-    };
     let names: String = (0..12).map(|column| format!(",c{column}")).collect();
-    let numbers = ",1".repeat(12);
-    assert_eq!(
-        notes("wide.csv", &format!("x,y,z{names}\n1,2,3{numbers}\n")),
-        ["4 further columns are ignored"]
-    );
+    let table = format!("x,y,z{names}\n1,2,3{}\n", ",1".repeat(12));
+    assert_eq!(notes("wide.csv", &table), ["4 further columns are ignored"]);
     let property = |name: &str| format!("property float {name}\n");
     let properties: String = ["x", "y", "z", "a", "b", "c", "d", "e"].map(property).concat();
     let ply = format!(

@@ -1,27 +1,24 @@
 use super::*;
-use crate::scene::attributes::Naming;
 
 #[test]
 fn lammps_dumps_in_order_scaled_and_sheared() {
-    let dump = |columns: &str, atoms: &str| {
-        format!(
-            "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n-1 3\n0 10\n0 10\nITEM: ATOMS {columns}\n{atoms}"
-        )
-    };
-    let plain = good(dump("id type x y z vx", "2 1 4 5 6 0.5\n1 2 1 2 3 0.25\n"));
+    let bounds = "pp pp pp\n-1 3\n0 10\n0 10";
+    let plain = good(dump(bounds, "id type x y z vx", "2 1 4 5 6 0.5\n1 2 1 2 3 0.25\n"));
     assert_eq!(centers(&plain), [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
     assert_eq!(plain.label(0).as_deref(), Some("2 1"));
-    assert_eq!(plain.attributes().column("vx").map(|v| v.values.clone()), Some(vec![0.25, 0.5]));
-    let scaled = good(dump("id type xs ys zs radius", "1 1 0.5 0.1 0.2 2\n2 1 0 0 1 3\n"));
+    assert_eq!(numbers(&plain, "vx"), Some(vec![0.25, 0.5]));
+    let atoms = "1 1 0.5 0.1 0.2 2\n2 1 0 0 1 3\n";
+    let scaled = good(dump(bounds, "id type xs ys zs radius", atoms));
     assert_eq!(spheres(&scaled), [[1.0, 1.0, 2.0, 2.0], [-1.0, 0.0, 10.0, 3.0]]);
     // xlo_bound = xlo + min(0, xy, xz, xy + xz): lo is 0, and hi 4.
-    let sheared = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 6 2\n0 10 0\n0 10 0\nITEM: ATOMS id element xs ys zs\n1 Fe 0.5 0.5 0\n";
-    let sheared = good(sheared);
+    let bounds = "xy xz yz pp pp pp\n0 6 2\n0 10 0\n0 10 0";
+    let sheared = good(dump(bounds, "id element xs ys zs", "1 Fe 0.5 0.5 0\n"));
     assert_eq!(centers(&sheared), [[3.0, 5.0, 0.0]]);
     assert_eq!(sheared.attributes().elements, Some(vec![26]));
     // Edges, and behind each a coordinate of the corner.
-    let general = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n3\nITEM: BOX BOUNDS abc origin pp pp pp\n10 0 0 -2\n3 20 0 -5\n0 0 1 -0.5\nITEM: ATOMS id type xs ys zs\n1 1 0 0 0\n2 1 1 0 0\n3 1 0 0.5 1\n";
-    assert_eq!(centers(&good(general)), [[-2.0, -5.0, -0.5], [8.0, -5.0, -0.5], [-0.5, 5.0, 0.5]]);
+    let bounds = "abc origin pp pp pp\n10 0 0 -2\n3 20 0 -5\n0 0 1 -0.5";
+    let general = good(dump(bounds, "id type xs ys zs", "1 1 0 0 0\n2 1 1 0 0\n3 1 0 0.5 1\n"));
+    assert_eq!(centers(&general), [[-2.0, -5.0, -0.5], [8.0, -5.0, -0.5], [-0.5, 5.0, 0.5]]);
 }
 
 #[test]
@@ -108,9 +105,7 @@ fn lammps_data_of_spheres_without_a_style() {
 #[test]
 fn fractions_of_a_box_are_at_finite_points() {
     let dump = |columns: &str, bounds: &str, atom: &str| {
-        format!(
-            "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n{bounds}\n0 1\n0 1\nITEM: ATOMS {columns}\n{atom}\n"
-        )
+        dump(&format!("pp pp pp\n{bounds}\n0 1\n0 1"), columns, &format!("{atom}\n"))
     };
     for (bounds, atom) in
         [("nan 1", "0 0 0"), ("0 inf", "0 0 0"), ("0 1e300", "0.5 0 0"), ("-1e38 1e38", "3 0 0")]

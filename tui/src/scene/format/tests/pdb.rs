@@ -1,5 +1,4 @@
 use super::*;
-use crate::scene::attributes::Naming;
 
 #[test]
 fn pdb_by_its_columns() {
@@ -13,11 +12,8 @@ fn pdb_by_its_columns() {
     assert_eq!(scene.label(2).as_deref(), Some("FE HEM 10000 B"));
     assert_eq!(scene.attributes().elements, Some(vec![7, 6, 26]));
     assert_eq!(scene.attributes().column("b_factor").map(|b| b.values[1]), Some(11.0));
-    let frames = &mut frames_of("alt.pdb", PDB.as_bytes(), &Reading::default());
-    assert_eq!(
-        frames.read(1).expect("a model").map(|scene| centers(&scene)),
-        Some(vec![[21.104, 6.134, -6.504]])
-    );
+    let frames = &mut film("alt.pdb", PDB);
+    assert_eq!(centers_in(frames, 1), Some(vec![[21.104, 6.134, -6.504]]));
     assert!(frames.read(2).expect("no error").is_none());
     let expected = ["1 atom is left out: alternate locations after the first", "ignored: CONECT"];
     assert_eq!(frames.notes(), expected);
@@ -114,37 +110,18 @@ fn pdb_symbols_that_are_none_leave_it_to_the_name() {
 /// As AutoDock, Vina and Open Babel write them: behind a charge, in column 78, where PDB has the end of a symbol.
 #[test]
 fn pdbqt_types_tell_elements() {
-    let types = [
-        ("CL", 17),
-        ("Cl", 17),
-        ("BR", 35),
-        ("C", 6),
-        ("A", 6),
-        ("CA", 20),
-        ("CG0", 6),
-        ("HD", 1),
-        ("N", 7),
-        ("NA", 7),
-        ("Na", 11),
-        ("OA", 8),
-        ("OS", 8),
-        ("W", 8),
-        ("SA", 16),
-        ("Mg", 12),
-        ("FE", 26),
-        ("Zn", 30),
-        ("I", 53),
-        ("G0", 0),
-    ];
+    let types = "CL 17, Cl 17, BR 35, C 6, A 6, CA 20, CG0 6, HD 1, N 7, NA 7, Na 11, OA 8, OS 8, W 8, \
+        SA 16, Mg 12, FE 26, Zn 30, I 53, G0 0";
+    let types = || types.split(", ").map(|row| row.split_once(' ').expect("a type"));
+    let elements: Vec<u8> = types().map(|(_, number)| number.parse().expect("a number")).collect();
     for charge in [" 0.123", "-0.123", "+0.123"] {
-        let rows = types.map(|(kind, _)| {
+        let row = |(kind, _): (&str, &str)| {
             format!(
                 "HETATM    1  CA  LIG     2       0.000   0.000   0.000  1.00  0.00    {charge} {kind}\n"
             )
-        });
-        let scene = good(rows.concat());
-        let elements = types.map(|(_, element)| element).to_vec();
-        assert_eq!(scene.attributes().elements, Some(elements), "{charge}");
+        };
+        let scene = good(types().map(row).collect::<String>());
+        assert_eq!(scene.attributes().elements.as_ref(), Some(&elements), "{charge}");
         assert_eq!([0, 1, 2].map(|atom| spheres(&scene)[atom][3]), [1.75, 1.75, 1.83]);
         // Digits of a charge are no name of a segment.
         assert_eq!(scene.attributes().names(Naming::Chain), None);

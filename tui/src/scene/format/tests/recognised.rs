@@ -1,6 +1,6 @@
 use super::*;
 
-fn refused(name: &str, bytes: &[u8], reading: &Reading) -> String {
+fn refused(name: &str, bytes: impl AsRef<[u8]>, reading: &Reading) -> String {
     let path = file(name, bytes);
     open(path.to_str().expect("UTF-8"), reading).expect_err("no format").to_string()
 }
@@ -25,15 +25,15 @@ fn content_that_is_known_is_not_read_as_its_name_says() {
     }
     // In the columns of PDB its radii would be lost without a word.
     let pqr = "ATOM      1  N   ALA     1      11.104   6.134  -6.504 -0.300 1.8240\n";
-    let message = refused("columns.pqr", pqr.as_bytes(), &Reading::default());
+    let message = refused("columns.pqr", pqr, &Reading::default());
     assert!(message.contains("PQR, which is not read; --format pdb"), "{message}");
     let reading = Reading { format: Some(Format::Pdb), ..Reading::default() };
-    let asked = frames_of("asked.pqr", pqr.as_bytes(), &reading).read(0).expect("a molecule");
-    assert_eq!(asked.map(|scene| centers(&scene)), Some(vec![[11.104, 6.134, -6.504]]));
+    let asked = &mut frames_of("asked.pqr", pqr, &reading);
+    assert_eq!(centers_in(asked, 0), Some(vec![[11.104, 6.134, -6.504]]));
     let words = "ATOM 1 N ALA 1 11.10412 6.13401 -6.50418 -0.30000 1.82400\n";
-    assert!(error(words).contains("f:1:1: values between spaces, as in PQR, which is not read"));
-    let unknown = &mut frames_of("text.csv", b"Some text.\n", &Reading::default());
-    assert!(unknown.read(0).expect_err("no table").to_string().contains("no columns x, y, z"));
+    wrong(words, "f:1:1: values between spaces, as in PQR, which is not read");
+    let unknown = &mut film("text.csv", "Some text.\n");
+    assert!(error_in(unknown, 0).contains("no columns x, y, z"));
     assert_eq!(centers(&good("CDF,x,y,z\n0.5,1,2,3\n")), [[1.0, 2.0, 3.0]]);
 }
 
@@ -49,11 +49,10 @@ fn a_file_that_is_still_empty_becomes_what_its_name_says() {
     ] {
         let frames = &mut frames_of(name, b"", &reading);
         for _ in 0..2 {
-            assert!(frames.read(0).unwrap_or_else(|error| panic!("{error}")).is_none(), "{name}");
+            assert!(frame(frames, 0).is_none(), "{name}");
         }
-        file(name, text.as_bytes());
-        let scene = frames.read(0).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(scene.map(|scene| scene.spheres().len()), Some(spheres), "{name}");
+        file(name, text);
+        assert_eq!(frame(frames, 0).map(|scene| scene.spheres().len()), Some(spheres), "{name}");
         let message = refused(name, b"", &Reading::default());
         assert!(message.ends_with(": the file is empty"), "{message}");
     }

@@ -1,17 +1,10 @@
 use super::*;
-use crate::color::Srgb;
 
 const EXPECTED: [[f32; 3]; 2] = [[0.5, 1.5, 2.5], [3.0, 4.0, 5.0]];
 
 /// The table, read by these columns.
 fn by(columns: &str, text: &str) -> Scene {
-    let reading = Reading {
-        format: Some(Format::Csv),
-        columns: Some(columns.to_owned()),
-        ..Reading::default()
-    };
-    let scene = frames_of("by.csv", text.as_bytes(), &reading).read(0);
-    scene.unwrap_or_else(|error| panic!("{error}")).expect("a table")
+    super::by(Some(Format::Csv), columns, text)
 }
 
 /// R names rows, comments begin with a sign and perhaps a word, and units are words of their own.
@@ -54,11 +47,9 @@ fn values_are_those_of_their_names() {
 fn a_comment_follows_a_number() {
     let scene = good("x,y,z,r,temp\n1,2,3,0.5,300 # hot, \"dry\"\n");
     assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5]]);
-    let kept = scene.attributes().column("temp").map(|column| column.values.clone());
-    assert_eq!(kept, Some(vec![300.0]));
-    let scene = good("x,y,z,label\n1,2,3,\"5 % NaCl\"\n3,4,5,pure\n");
-    let label = scene.attributes().column("label");
-    assert!(label.is_none_or(|label| label.values.iter().all(|value| value.is_nan())));
+    assert_eq!(numbers(&scene, "temp"), Some(vec![300.0]));
+    let label = numbers(&good("x,y,z,label\n1,2,3,\"5 % NaCl\"\n3,4,5,pure\n"), "label");
+    assert!(label.is_none_or(|values| values.iter().all(|value| value.is_nan())));
     let scene = good("x,y,z,diameter\n1,2,3,1 # wide\n");
     assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5]]);
     assert_eq!(centers(&good("name,x,y,z\n1 #2,0.5,1.5,2.5\nC #1,3,4,5\n")), EXPECTED);
@@ -73,9 +64,8 @@ fn a_comment_follows_a_number() {
     }
     let what = "3 values; the header in line 1 names 4; --columns takes columns by number";
     assert_eq!(error("# x,y,z,r\n4,5,6 # a, 7\n"), format!("f:2:13: {what}"));
-    let scene = good("x,y,z,q\n0,0,0,1\n4,5,6 # moved by 5, 7\n");
-    let kept = scene.attributes().column("q").expect("numbers");
-    assert!(kept.values[0] == 1.0 && kept.values[1].is_nan());
+    let kept = numbers(&good("x,y,z,q\n0,0,0,1\n4,5,6 # moved by 5, 7\n"), "q").expect("numbers");
+    assert!(kept[0] == 1.0 && kept[1].is_nan());
     assert_eq!(error("x,y,z\n1,2,3a # c\n"), "f:2:5: z is \"3a # c\": no number");
 }
 
@@ -151,7 +141,7 @@ fn r_without_g_and_b_is_the_radius() {
     // Magnitudes.
     let bands = good("x,y,z,g,r,i\n0,0,0,-5,-4,3\n");
     assert!(!bands.attributes().own.radii && bands.attributes().column("r").is_some());
-    assert!(error("x (m),y (m),z (m),r (mm)\n1,2,3,4\n").contains("lengths in \"(m)\" and in"));
+    wrong("x (m),y (m),z (m),r (mm)\n1,2,3,4\n", "lengths in \"(m)\" and in");
 }
 
 /// Without a host's scheme an address begins like a comment.
@@ -182,8 +172,7 @@ fn a_header_behind_slashes() {
         let scene = good(format!("//X Y Z R G B Scalar_field Nx Ny Nz\n{count}{rows}"));
         assert_eq!(scene.spheres().len(), 2, "{count}");
         assert_eq!(scene.colors(), [Srgb([200, 100, 50]); 2], "{count}");
-        let field = scene.attributes().column("Scalar_field").map(|field| field.values.clone());
-        assert_eq!(field, Some(vec![0.51; 2]), "{count}");
+        assert_eq!(numbers(&scene, "Scalar_field"), Some(vec![0.51; 2]), "{count}");
         assert_eq!(centers(&good(format!("//X Y Z\n{count}0.5 1.5 2.5\n3 4 5\n"))), EXPECTED);
     }
     assert_eq!(centers(&good("// a comment\n0.5 1.5 2.5\n// another\n3 4 5 // 1\n")), EXPECTED);
@@ -221,8 +210,7 @@ fn a_diameter_that_is_missing_is_no_radius() {
 fn a_diameter_in_another_unit_is_a_number() {
     let scene = good("x (m),y (m),z (m),diameter (cm)\n1,2,3,200\n");
     assert!(!scene.attributes().own.radii);
-    let column = scene.attributes().column("diameter (cm)").map(|column| column.values.clone());
-    assert_eq!(column, Some(vec![200.0]));
+    assert_eq!(numbers(&scene, "diameter (cm)"), Some(vec![200.0]));
     let scene = good("x (m),y (m),z (m),diameter (m)\n1,2,3,2\n");
     assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 1.0]]);
 }
@@ -230,17 +218,14 @@ fn a_diameter_in_another_unit_is_a_number() {
 /// As of MercuryDPM where it is to be read as a table: each frame has a line of its own, which then is a sphere, too.
 #[test]
 fn rows_of_another_width_are_said() {
-    let notes_by = |format: Option<Format>, text: &str| {
-        let reading = Reading { format, ..Reading::default() };
-        let frames = &mut frames_of("widths.txt", text.as_bytes(), &reading);
-        frames.read(0).unwrap_or_else(|error| panic!("{error}"));
-        frames.notes()
-    };
-    let notes = |text: &str| notes_by(None, text);
+    let notes = |text: &str| notes("widths.txt", text);
     let particle = "1 2 3 0 0 0 0.5 0 0 0 0 0 0 0\n";
     let text = format!("2 0 0 0 -1 10 10 1\n{particle}{particle}");
     let what = "has not as many values as the first row: all rows are read as spheres";
-    let said = notes_by(Some(Format::Csv), &text);
+    let reading = Reading { format: Some(Format::Csv), ..Reading::default() };
+    let table = &mut frames_of("table.txt", &text, &reading);
+    assert!(frame(table, 0).is_some());
+    let said = table.notes();
     assert!(said.contains(&format!("line 2 {what}")), "{said:?}");
     assert!(notes(&text).is_empty(), "it has a format of its own");
     let said = notes("1 2 3 4 5\n6 7 8 9 10 11\n");

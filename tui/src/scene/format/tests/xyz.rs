@@ -1,6 +1,4 @@
 use super::*;
-use crate::color::Srgb;
-use crate::scene::attributes::Naming;
 
 #[test]
 fn xyz_as_it_always_was() {
@@ -22,10 +20,7 @@ fn line_ends_a_byte_order_mark_and_latin1_do_not_matter() {
     ] {
         assert_eq!(good(text).spheres().len(), 2);
     }
-    assert_eq!(
-        good([b"1\n\xc5ngstr\xf6m\n".as_slice(), b"He 0 0 0\n"].concat()).spheres().len(),
-        1
-    );
+    assert_eq!(good(b"1\n\xc5ngstr\xf6m\nHe 0 0 0\n").spheres().len(), 1);
 }
 
 /// The order of columns is what Properties say: forces are never taken for positions.
@@ -36,7 +31,7 @@ fn properties_are_obeyed() {
     let scene = good(text);
     assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5], [4.0, 5.0, 6.0, 0.25]]);
     assert_eq!(scene.colors(), [Srgb([255, 0, 128]), Srgb([0, 255, 0])]);
-    assert_eq!(scene.attributes().column("q").map(|q| q.values.clone()), Some(vec![-1.0, 2.5]));
+    assert_eq!(numbers(&scene, "q"), Some(vec![-1.0, 2.5]));
     assert!(scene.attributes().own.radii && scene.attributes().own.colors);
     let without = good("1\nProperties=\"pos:R:3\"\n1 2 3\n");
     assert_eq!(centers(&without), [[1.0, 2.0, 3.0]]);
@@ -48,14 +43,13 @@ fn an_unknown_type_is_grey() {
     assert_eq!(scene.colors()[1], crate::scene::particles::NEUTRAL);
     assert_eq!(scene.attributes().names(Naming::Type).and_then(|names| names.get(1)), Some("Xx"));
     let reading = Reading { strict: true, ..Reading::default() };
-    let refused = frames_of("strict.xyz", b"2\n\nH 0 0 0\nXx 1 0 0\n", &reading).read(0);
-    let message = refused.expect_err("strict").to_string();
+    let strict = &mut frames_of("strict.xyz", "2\n\nH 0 0 0\nXx 1 0 0\n", &reading);
+    let message = error_in(strict, 0);
     assert!(message.contains("strict.xyz:4:1: \"Xx\" is no element"), "{message}");
-    let mut frames =
-        frames_of("grey.xyz", b"3\n\nXx 0 0 0\nYy 1 0 0\nXx 2 0 0\n", &Reading::default());
-    assert!(frames.read(0).is_ok());
-    assert_eq!(frames.notes(), ["3 particles are of 2 unknown types (Xx, Yy): drawn grey"]);
-    assert!(frames.notes().is_empty());
+    let grey = &mut film("grey.xyz", "3\n\nXx 0 0 0\nYy 1 0 0\nXx 2 0 0\n");
+    assert!(frame(grey, 0).is_some());
+    assert_eq!(grey.notes(), ["3 particles are of 2 unknown types (Xx, Yy): drawn grey"]);
+    assert!(grey.notes().is_empty());
 }
 
 /// Whichever comes first.
@@ -78,7 +72,7 @@ fn one_column_tells_elements_and_another_names_types() {
     }
     let both = good("1\nProperties=species:S:1:pos:R:3:Z:I:1\nC 0 0 0 29\n");
     assert_eq!(both.attributes().elements, Some(vec![6]));
-    assert_eq!(both.attributes().column("Z").map(|z| z.values.clone()), Some(vec![29.0]));
+    assert_eq!(numbers(&both, "Z"), Some(vec![29.0]));
 }
 
 #[test]
@@ -101,8 +95,6 @@ fn truths_are_told_in_any_case() {
     let words = ["T", "true", "True", "TRUE", "t", "F", "false", "False", "FALSE", "f"];
     let atoms: String = words.iter().map(|word| format!("C 0 0 0 {word}\n")).collect();
     let text = format!("{}\nProperties=species:S:1:pos:R:3:fixed:L:1\n{atoms}", words.len());
-    let scene = good(text);
-    let fixed = scene.attributes().column("fixed").map(|fixed| fixed.values.clone());
-    assert_eq!(fixed, Some([[1.0; 5], [0.0; 5]].concat()));
-    assert!(error("1\nProperties=pos:R:3:fixed:L:1\n0 0 0 yes\n").contains("no number"));
+    assert_eq!(numbers(&good(text), "fixed"), Some([[1.0; 5], [0.0; 5]].concat()));
+    wrong("1\nProperties=pos:R:3:fixed:L:1\n0 0 0 yes\n", "no number");
 }

@@ -1,6 +1,6 @@
 //! What `Properties` in the comment of an extended XYZ file say: names, types, and how many columns each has.
 
-use super::super::words::excerpt;
+use super::super::words::{count, excerpt};
 use crate::scene::attributes::Naming;
 use crate::scene::input::Line;
 use crate::scene::read_error::ReadError;
@@ -44,11 +44,6 @@ pub(super) struct Property<'a> {
 }
 
 impl Property<'_> {
-    /// Whether a picture leaves it out.
-    pub(super) fn is_ignored(&self) -> bool {
-        self.kind == Kind::Other
-    }
-
     /// A channel of a colour: reals from 0 to 1, integers to 255.
     pub(super) fn channel(&self, value: f32) -> u8 {
         let value = if self.is_integer { value } else { 255.0 * value };
@@ -83,7 +78,7 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property<'stat
     let (mut found, mut all) = (Vec::new(), Vec::with_capacity(words.len() / 3));
     for triple in words.chunks_exact(3) {
         let name = String::from_utf8_lossy(triple[0]);
-        let columns = super::count(triple[2]).filter(|&columns| columns > 0 && columns <= 1 << 24);
+        let columns = count(triple[2]).filter(|&columns| columns > 0 && columns <= 1 << 24);
         let (Some(columns), [b'S' | b'R' | b'I' | b'L']) = (columns, triple[1]) else {
             return wrong(format!(
                 "Properties: {} is no name:type:columns",
@@ -94,10 +89,7 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property<'stat
         if kind == Kind::Position && columns != 3 {
             return wrong(format!("Properties: {name} has {columns} columns; positions have 3"));
         }
-        if matches!(
-            kind,
-            Kind::Position | Kind::Radius | Kind::Diameter | Kind::Color | Kind::Name(_)
-        ) {
+        if !matches!(kind, Kind::Species | Kind::Number | Kind::Other) {
             if found.contains(&kind) {
                 return wrong(format!("Properties: {name:?} names a second column for the same"));
             }

@@ -18,22 +18,18 @@ fn control(letter: char) -> Incoming {
 }
 
 #[test]
-fn keys() {
-    assert_eq!(taken("q!"), (1, pressed(KeyCode::Char('q'))));
-    assert_eq!(taken("\x1b[Cq"), (3, pressed(KeyCode::Right)));
-    assert_eq!(taken("\x1b[1;5Cq"), (6, pressed(KeyCode::Right)));
-    assert_eq!(taken("\x1bOAq"), (3, pressed(KeyCode::Up)));
-    assert_eq!(taken("\r\r"), (1, pressed(KeyCode::Enter)));
-    assert_eq!(taken("\x1b[5~q"), (4, pressed(KeyCode::PageUp)));
-    assert_eq!(taken("\x1b[6;2~q"), (6, pressed(KeyCode::PageDown)));
-    assert_eq!(taken("\x1a"), (1, Some(control('z'))));
-}
-
-/// Some terminals send no other Ctrl-C, Ctrl-Z or Escape than these.
-#[test]
-fn keys_by_their_codes_are_the_same_keys() {
+fn keys_are_told_whatever_follows_them() {
     let letter = |letter| pressed(KeyCode::Char(letter));
     for (bytes, expected) in [
+        ("q", letter('q')),
+        ("\r", pressed(KeyCode::Enter)),
+        ("\x1a", Some(control('z'))),
+        ("\x1b[C", pressed(KeyCode::Right)),
+        ("\x1b[1;5C", pressed(KeyCode::Right)),
+        ("\x1bOA", pressed(KeyCode::Up)),
+        ("\x1b[5~", pressed(KeyCode::PageUp)),
+        ("\x1b[6;2~", pressed(KeyCode::PageDown)),
+        // By their codes: some terminals send no other Ctrl-C, Ctrl-Z or Escape than these.
         ("\x1b[99;5u", Some(control('c'))),
         ("\x1b[27;5;99~", Some(control('c'))),
         ("\x1b[122;5u", Some(control('z'))),
@@ -70,7 +66,10 @@ fn keys_by_their_codes_are_the_same_keys() {
         ("\x1b[?1u", None),
         ("\x1b[u", None),
     ] {
-        assert_eq!(taken(&format!("{bytes}q")), (bytes.len(), expected), "{bytes:?}");
+        for next in ["", "q", "\r"] {
+            let (count, key) = taken(&format!("{bytes}{next}"));
+            assert_eq!((count, &key), (bytes.len(), &expected), "{bytes:?} before {next:?}");
+        }
     }
 }
 

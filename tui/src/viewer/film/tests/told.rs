@@ -9,24 +9,33 @@ fn news(film: &mut Film) -> String {
     news.clone()
 }
 
+/// No frame comes any more, and there is something to tell.
+fn stops_with_news(film: &mut Film) {
+    soon(|| {
+        let has_ended = film.wait().is_none();
+        assert!(has_ended || film.next().is_none());
+        has_ended.then_some(())
+    });
+    assert!(film.wait().is_none() && !film.take_news().is_empty());
+}
+
 #[test]
 fn a_frame_that_is_wrong_is_told_of_where_it_would_be_next() {
     let frame = |index: usize| {
         let x = if index == 20 { "x" } else { "0" };
         format!("2\nframe {index}\nC {index} 0 0\nO {x} {index} 0\n")
     };
-    std::fs::write(path("damaged.xyz"), (0..60).map(frame).collect::<String>()).expect("a file");
-    let mut film = film_of(path("damaged.xyz").to_str().expect("UTF-8"));
+    let name = written("damaged.xyz", (0..60).map(frame).collect::<String>());
+    let mut film = film_of(&name);
     for x in 1..=19 {
-        film.step(true);
-        assert_eq!(next(&mut film), x as f32);
+        assert_eq!(stepped(&mut film, true), x as f32);
         if x == 12 {
             wait_until(&film, |state| state.ending.is_some());
         }
         assert!(x == 19 || film.status().starts_with(&format!("{x}/")), "{}", film.status());
     }
     // The status line has no room for all of it. Whoever asks again is told again.
-    let why = format!("frame 20: {}:84:3: x is \"x\": no number", path("damaged.xyz").display());
+    let why = format!("frame 20: {name}:84:3: x is \"x\": no number");
     for _ in 0..2 {
         assert!(film.next().is_none() && news(&mut film).starts_with(&why));
         assert!(film.next().is_none() && film.take_news().is_empty());
@@ -35,8 +44,7 @@ fn a_frame_that_is_wrong_is_told_of_where_it_would_be_next() {
     }
     assert!(film.next().is_none() && news(&mut film).starts_with(&why));
     // A step back asks for no more.
-    film.step(false);
-    assert_eq!(next(&mut film), 18.0);
+    assert_eq!(stepped(&mut film, false), 18.0);
     assert!(film.take_news().is_empty());
     assert_eq!(film.status(), "18/20!");
 }
@@ -44,8 +52,7 @@ fn a_frame_that_is_wrong_is_told_of_where_it_would_be_next() {
 /// Else it would look as if the file ended there.
 #[test]
 fn a_film_that_ends_at_a_wrong_frame_says_so_as_it_plays() {
-    std::fs::write(path("short.xyz"), text(3) + "2\n\nC 0 0 0\n").expect("a file");
-    let mut film = film_of(path("short.xyz").to_str().expect("UTF-8"));
+    let mut film = film_of(&written("short.xyz", text(3) + WRONG));
     wait_until(&film, |state| state.ending.is_some());
     assert_eq!(film.status(), "0/3!");
     film.play();
@@ -61,8 +68,7 @@ fn a_film_that_ends_at_a_wrong_frame_says_so_as_it_plays() {
 /// There is nothing to count or to play then.
 #[test]
 fn a_second_frame_that_is_wrong_is_told_of() {
-    std::fs::write(path("second.xyz"), text(1) + "2\n\nC 0 0 0\n").expect("a file");
-    let mut film = film_of(path("second.xyz").to_str().expect("UTF-8"));
+    let mut film = film_of(&written("second.xyz", text(1) + WRONG));
     wait_until(&film, |state| state.ending.is_some());
     assert!(film.has_status() && !film.has_more());
     assert!(film.status().starts_with("frame 1: "), "{}", film.status());
@@ -71,22 +77,14 @@ fn a_second_frame_that_is_wrong_is_told_of() {
 
 #[test]
 fn what_frames_lack_is_told_of_the_first_that_is_shown() {
-    std::fs::write(path("lacking.xyz"), text(3)).expect("a file");
-    let name = path("lacking.xyz");
-    let Ok(Opened::File(mut frames)) = open(name.to_str().expect("UTF-8"), &Reading::default())
-    else {
-        panic!("no file")
-    };
-    let _ = frames.read(0).expect("a frame").expect("a frame");
+    let frames = opened(&written("lacking.xyz", text(3)), &Reading::default(), 0);
     let prepare = |_: &mut Scene| Err("keeps its radii: none".to_owned());
     let mut film = Film::new(frames, 0, prepare).expect("a thread");
     wait_until(&film, |state| state.ready.contains_key(&2));
     assert!(film.next().is_none() && film.take_news().is_empty());
-    film.step(true);
-    assert_eq!(next(&mut film), 1.0);
+    assert_eq!(stepped(&mut film, true), 1.0);
     assert_eq!(news(&mut film), "frame 1 keeps its radii: none");
-    film.step(true);
-    assert_eq!(next(&mut film), 2.0);
+    assert_eq!(stepped(&mut film, true), 2.0);
     assert!(film.take_news().is_empty());
 }
 
@@ -98,8 +96,7 @@ fn the_count_does_not_fall_with_steps_back() {
     assert_eq!(next(&mut film), 40.0);
     wait_until(&film, |state| !state.is_reading);
     assert_eq!(film.status(), format!("40/{}+", 42 + AHEAD));
-    film.step(false);
-    assert_eq!(next(&mut film), 39.0);
+    assert_eq!(stepped(&mut film, false), 39.0);
     assert_eq!(film.status(), format!("39/{}+", 42 + AHEAD));
 }
 
@@ -121,4 +118,33 @@ fn whoever_shows_the_count_is_told_that_it_changes() {
     assert!(film.wait_for_status().is_none() && !film.has_changed());
     film.play();
     assert_eq!(film.wait_for_status(), Some(GLANCE));
+}
+
+/// They would be read from the middle of a line.
+#[test]
+fn other_contents_of_a_file_that_is_followed_end_the_film() {
+    let mut film = followed("cut.xyz", 3);
+    film.play();
+    assert_eq!((next(&mut film), next(&mut film)), (1.0, 2.0));
+    wait_until(&film, |state| state.unwritten == Some(3));
+    std::fs::write(path("cut.xyz"), text(4).replace('C', "O")).expect("a file");
+    wait_until(&film, |state| state.ending.is_some());
+    stops_with_news(&mut film);
+    assert_eq!(film.status(), "frame 3: the file was written anew, with other contents");
+}
+
+/// What it still has can be shown, and why it stopped is told.
+#[test]
+fn a_file_that_is_gone_stops_where_it_would_begin_again() {
+    let mut film = film("gone.xyz", 4);
+    wait_until(&film, |state| state.count.is_some());
+    std::fs::remove_file(path("gone.xyz")).expect("the file");
+    film.play();
+    for x in [1.0, 2.0, 3.0] {
+        assert_eq!(next(&mut film), x);
+    }
+    stops_with_news(&mut film);
+    assert!(film.status().starts_with("frame 0: "), "{}", film.status());
+    assert_eq!(stepped(&mut film, false), 2.0);
+    assert_eq!(film.status(), "2/4");
 }
