@@ -1,5 +1,6 @@
 //! Pictures in cells against the truth: whether the scorer is right, and what the program reaches.
 
+mod drawn;
 mod floors;
 mod ink;
 mod measures;

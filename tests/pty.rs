@@ -5,6 +5,7 @@
 mod busy;
 mod container;
 mod emulated;
+mod file;
 mod frames;
 mod keyboard;
 mod leaving;
@@ -14,6 +15,7 @@ mod look;
 mod modes;
 mod multiplexer;
 mod once;
+mod output;
 mod picking;
 mod picture;
 mod pixels;
@@ -26,15 +28,14 @@ mod sizes;
 mod table;
 mod viewer;
 
-use look::last_row;
 use modes::is_cooked;
+use output::{BEGIN, Output};
 use picture::{OPTIONS, once, once_with};
-use session::{Output, Session};
+use session::Session;
 use spherule::view::{LensKind, orbited, with_projection, zoomed};
 use spherule::viewer::{ORBIT_STEP, ZOOM_STEP};
-use spherule_tests::binary::spherule;
 use std::f32::consts::PI;
-use viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
+use viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 
 #[test]
 fn it_starts_and_draws_what_once_draws() {
@@ -45,7 +46,7 @@ fn it_starts_and_draws_what_once_draws() {
     {
         let output = viewer.session.output();
         assert!(output.screen().hide_cursor());
-        assert!(last_row(output.screen()).contains("exact perspective half"));
+        assert!(output.status().contains("exact perspective half"));
         assert!(!is_cooked(&viewer.session.modes()));
     }
     viewer.quit();
@@ -54,13 +55,10 @@ fn it_starts_and_draws_what_once_draws() {
 #[test]
 fn a_background_that_is_asked_for_is_behind_a_scene_that_names_none() {
     let arguments = [&["unit", "--background", "#ffeedd"], OPTIONS.as_slice()].concat();
-    let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
-    session.wait_for("the background", |output| {
-        let corner = output.screen().cell(0, 0)?.bgcolor();
-        (corner == vt100::Color::Rgb(0xff, 0xee, 0xdd)).then_some(())
-    });
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
+    let mut session = Session::start(&arguments, &[], (COLUMNS, ROWS));
+    let color = vt100::Color::Rgb(0xff, 0xee, 0xdd);
+    session.wait_until("the background", |output| output.corner() == Some(color));
+    session.quit("q");
 }
 
 #[test]
@@ -69,12 +67,11 @@ fn s_goes_through_the_structures_and_the_picture_stays() {
     let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
     for structure in ["brute", "depth-list", "bvh"] {
         viewer.session.type_in("s");
-        viewer.session.wait_for(structure, |output| {
-            let named = last_row(output.screen()).contains(structure);
-            (shows_a_frame(output) && named).then_some(())
+        viewer.session.wait_until(structure, |output| {
+            output.shows_a_frame() && output.status().contains(structure)
         });
         viewer.wait_for_picture("the same picture", &expected);
-        let line = last_row(viewer.session.output().screen());
+        let line = viewer.session.output().status();
         assert!(line.trim_end().ends_with("? help  q quit"), "{line}");
     }
     viewer.quit();
@@ -82,9 +79,9 @@ fn s_goes_through_the_structures_and_the_picture_stays() {
 
 #[test]
 fn object_order_draws_the_same_and_says_so() {
-    let viewer = Viewer::start_as(&["--order", "object"], &[], COLUMNS, ROWS);
+    let viewer = Viewer::start_as(&["--order", "object"]);
     viewer.wait_for_picture("the same picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
-    assert!(last_row(viewer.session.output().screen()).contains("exact perspective half object"));
+    assert!(viewer.session.output().status().contains("exact perspective half object"));
     viewer.quit();
 }
 
@@ -123,9 +120,7 @@ fn the_status_line_tells_the_tier() {
     for (key, text) in [("1", " fast "), ("2", " stable "), ("3", " exact "), ("4", " geometric ")]
     {
         viewer.session.type_in(key);
-        viewer
-            .session
-            .wait_for(text, |output| last_row(output.screen()).contains(text).then_some(()));
+        viewer.session.wait_for_status(text);
     }
     viewer.quit();
 }
@@ -136,10 +131,7 @@ fn c_goes_around_the_charsets() {
     let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
     for charset in ["quadrant", "sextant", "octant", "braille", "block", "ascii", "half"] {
         viewer.session.type_in("c");
-        let named = format!(" perspective {charset} ");
-        viewer
-            .session
-            .wait_for(charset, |output| last_row(output.screen()).contains(&named).then_some(()));
+        viewer.session.wait_for_status(&format!(" perspective {charset} "));
     }
     viewer.wait_for_picture("the first charset", &expected);
     viewer.quit();
@@ -177,22 +169,22 @@ fn after_a_movement_the_picture_becomes_full_and_then_there_is_peace() {
     viewer.quit();
 }
 
+fn row_text(output: &Output, row: u16) -> String {
+    output.screen().contents_between(row, 0, row, COLUMNS)
+}
+
 /// `e` shows the tier's errors, for the current tier; `e` again shows the picture.
 #[test]
 fn e_shows_the_errors_and_the_picture_again() {
     let mut viewer = Viewer::start();
-    let legend = |output: &Output| {
-        let columns = output.screen().size().1.get();
-        let row = PICTURE_ROWS - 2;
-        output.screen().contents_between(row, 0, row, columns)
-    };
+    let legend = |output: &Output| row_text(output, PICTURE_ROWS - 2);
     viewer.session.type_in("e");
-    viewer.session.wait_for("the legend", |output| {
-        (shows_a_frame(output) && legend(output).contains(" exact: all right")).then_some(())
+    viewer.session.wait_until("the legend", |output| {
+        output.shows_a_frame() && legend(output).contains(" exact: all right")
     });
     viewer.session.type_in("1");
-    viewer.session.wait_for("the errors of fast", |output| {
-        (shows_a_frame(output) && legend(output).contains(" worst: sphere ")).then_some(())
+    viewer.session.wait_until("the errors of fast", |output| {
+        output.shows_a_frame() && legend(output).contains(" worst: sphere ")
     });
     let expected =
         once_with(&["--show", "error", "--accuracy", "fast"], &VIEW, COLUMNS, PICTURE_ROWS);
@@ -208,25 +200,19 @@ fn e_shows_the_errors_and_the_picture_again() {
 fn v_shows_two_tiers_and_the_seam_moves() {
     let mut viewer = Viewer::start();
     let wait_for_seam = |viewer: &Viewer, column: u16| {
-        viewer.session.wait_for("the seam", |output| {
+        viewer.session.wait_until("the seam", |output| {
             let is_seam =
                 |row| output.screen().cell(row, column).is_some_and(|cell| cell.contents() == "│");
-            let figures =
-                output.screen().contents_between(PICTURE_ROWS - 1, 0, PICTURE_ROWS - 1, COLUMNS);
-            let is_there = shows_a_frame(output) && (0..PICTURE_ROWS).all(is_seam);
-            (is_there && figures.matches(" wrong ").count() == 2 && figures.contains(" of "))
-                .then_some(())
+            let figures = row_text(output, PICTURE_ROWS - 1);
+            let is_there = output.shows_a_frame() && (0..PICTURE_ROWS).all(is_seam);
+            is_there && figures.matches(" wrong ").count() == 2 && figures.contains(" of ")
         });
     };
     viewer.session.type_in("v");
     wait_for_seam(&viewer, 40);
-    {
-        let output = viewer.session.output();
-        let row = PICTURE_ROWS - 2;
-        let tiers = output.screen().contents_between(row, 0, row, COLUMNS);
-        assert!(tiers.starts_with(" fast  ") && tiers.contains("│ exact  "), "{tiers}");
-        assert_eq!(tiers.matches("ns/ray").count(), 2, "{tiers}");
-    }
+    let tiers = row_text(&viewer.session.output(), PICTURE_ROWS - 2);
+    assert!(tiers.starts_with(" fast  ") && tiers.contains("│ exact  "), "{tiers}");
+    assert_eq!(tiers.matches("ns/ray").count(), 2, "{tiers}");
     viewer.session.type_in("]]]");
     wait_for_seam(&viewer, 43);
     viewer.session.type_in("[");
@@ -250,9 +236,7 @@ fn help_opens_and_closes() {
     let mut viewer = Viewer::start();
     let before = once(&VIEW, COLUMNS, PICTURE_ROWS);
     viewer.session.type_in("?");
-    viewer
-        .session
-        .wait_for("the help", |output| output.screen().contents().contains("wheel").then_some(()));
+    viewer.session.wait_for_words("wheel");
     viewer.session.type_in("?");
     viewer.wait_for_picture("the picture under it", &before);
     viewer.quit();
@@ -262,10 +246,7 @@ fn help_opens_and_closes() {
 fn it_spins_until_told_not_to() {
     let mut viewer = Viewer::start();
     viewer.session.type_in(" ");
-    viewer.session.wait_for("a rate", |output| {
-        let line = last_row(output.screen());
-        (line.contains("fps") && !line.contains("-- fps")).then_some(())
-    });
+    viewer.session.wait_until("a rate", Output::tells_a_rate);
     viewer.session.type_in(" r");
     viewer.wait_for_picture("the first view", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.quit();
@@ -277,9 +258,7 @@ fn where_nothing_changes_nothing_is_sent() {
     let sent = viewer.session.output().sent.len();
     // Keys without a meaning (Enter has none while nothing is picked), and a choice that is already made.
     viewer.session.type_in("xyz3\r");
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success());
-    let output = viewer.session.output();
-    let frames = output.sent[sent..].windows(8).filter(|bytes| bytes == b"\x1b[?2026h").count();
-    assert_eq!(frames, 0, "{:?}", String::from_utf8_lossy(&output.sent[sent..]));
+    viewer.session.quit("q");
+    let text = viewer.session.output().text_after(sent);
+    assert!(!text.contains(BEGIN), "{text:?}");
 }

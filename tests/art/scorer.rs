@@ -4,16 +4,12 @@ use spherule_tests::art::cell::{Coverage, HEIGHT, WIDTH};
 use spherule_tests::art::figures::{Figures, Truth};
 use spherule_tests::art::font::Font;
 use spherule_tests::art::light::Light;
-use spherule_tests::art::palette::{Rgb, Sixteen, sixteen};
+use spherule_tests::art::palette::{Rgb, sixteen, xterm};
 use spherule_tests::art::screen::{Screen, Shown};
 use spherule_tests::art::{geometry, score};
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::ops::Range;
-
-fn xterm() -> Sixteen {
-    sixteen("xterm").expect("a known theme")
-}
 
 fn read(text: &str, columns: u16, rows: u16) -> Result<Vec<Shown>, String> {
     Screen::read(text.as_bytes(), columns, rows, &xterm()).map(|screen| screen.cells)

@@ -1,6 +1,6 @@
 //! How turning pictures change, beside how the truth changes: the limit of each mode.
 
-use spherule::draw::pixels::PixelGrid;
+use super::drawn::truth;
 use spherule::draw::{self, Renderer, Spending};
 use spherule::encode;
 use spherule::scene::Scene;
@@ -8,13 +8,12 @@ use spherule::scene::builtin::builtin;
 use spherule::style::{Charset, ColorDepth, Style};
 use spherule::threads::Threads;
 use spherule::view::{View, orbited};
-use spherule_kernel::{Level, Tier};
+use spherule_kernel::Level;
 use spherule_tests::art::font::Font;
 use spherule_tests::art::light::Light;
 use spherule_tests::art::motion::Changes;
-use spherule_tests::art::palette::{Rgb, sixteen};
+use spherule_tests::art::palette::xterm;
 use spherule_tests::art::screen::Screen;
-use std::convert::Infallible;
 
 const COLUMNS: u16 = 30;
 const ROWS: u16 = 15;
@@ -40,33 +39,17 @@ fn views(scene: &Scene) -> Vec<View> {
     (0..FRAMES).map(|frame| orbited(&home, f32::from(frame) * STEP, 0.0)).collect()
 }
 
-/// The truth in the pixels that `--png` writes.
-fn truth(scene: &Scene, view: &View) -> Light {
-    let threads = Threads::default();
-    let grid = PixelGrid::new(view, &Style::PLAIN, COLUMNS, ROWS);
-    let mut pixels: Vec<Rgb> = Vec::new();
-    let take = |row: &[u8]| {
-        pixels.extend(row.as_chunks().0);
-        Ok::<_, Infallible>(())
-    };
-    let renderer = Renderer::new(Level::best(), &threads);
-    let search = draw::brute_force(scene, view);
-    let Ok(()) = renderer.draw_pixels(scene, &search, Tier::Exact, &grid, take);
-    Light::of_colors(grid.size().0 as usize, pixels)
-}
-
 /// What a terminal shows of the viewer's frames.
 fn shown(scene: &Scene, style: &Style, views: &[View]) -> Vec<Light> {
     let threads = Threads::default();
     let mut renderer = Renderer::new(Level::best(), &threads);
-    let xterm = sixteen("xterm").expect("a known theme");
     let frame = |view: &View| {
         let search = draw::brute_force(scene, view);
         let spending = Spending::AtMost(u64::MAX);
         let drawn = renderer.draw(scene, &search, view, style, (COLUMNS, ROWS), spending);
         let mut bytes = Vec::new();
         encode::full(&drawn.cells, &mut bytes);
-        let screen = Screen::read(&bytes, COLUMNS, ROWS, &xterm).expect("a picture");
+        let screen = Screen::read(&bytes, COLUMNS, ROWS, &xterm()).expect("a picture");
         Light::of_screen(&screen, Font::Unifont).expect("known glyphs")
     };
     views.iter().map(frame).collect()
@@ -76,7 +59,7 @@ fn shown(scene: &Scene, style: &Style, views: &[View]) -> Vec<Light> {
 fn what_turns_changes_as_the_truth_does() {
     let scene = builtin("marbles").expect("a built-in scene");
     let views = views(&scene);
-    let truths: Vec<Light> = views.iter().map(|view| truth(&scene, view)).collect();
+    let truths: Vec<Light> = views.iter().map(|view| truth(&scene, view, COLUMNS, ROWS)).collect();
     let truth = Changes::new(&truths);
     let mut wrong = String::new();
     for (charset, depth, most) in MOST {

@@ -1,12 +1,9 @@
 //! Keys while a picture is drawn that takes far longer than anyone waits.
 
-use super::look::{Look, inverse, last_row, look};
-use super::picture::OPTIONS;
-use super::session::{Output, Session};
-use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, shows_a_frame};
-use spherule_tests::binary::spherule;
-use std::fs;
-use std::path::PathBuf;
+use super::file::TestFile;
+use super::look::{Look, inverse, look};
+use super::output::Output;
+use super::viewer::{COLUMNS, PICTURE_ROWS, Viewer};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -28,8 +25,7 @@ fn lattice(side: u16) -> impl Iterator<Item = [u16; 3]> {
 }
 
 /// Writes the cube as an array.
-fn cube() -> PathBuf {
-    let path = std::env::temp_dir().join(format!("spherule-{}-cube.npy", std::process::id()));
+fn cube() -> TestFile {
     let shape = format!("({}, 4)", u32::from(SIDE).pow(3));
     let head = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}");
     let head = format!("{head:<117}\n");
@@ -37,88 +33,64 @@ fn cube() -> PathBuf {
         lattice(SIDE).flat_map(|[x, y, z]| [f32::from(x), f32::from(y), f32::from(z), 0.3]);
     let magic = b"\x93NUMPY\x01\x00\x76\x00".iter().copied();
     let bytes = magic.chain(head.bytes()).chain(spheres.flat_map(f32::to_le_bytes));
-    fs::write(&path, bytes.collect::<Vec<u8>>()).expect("a temporary file");
-    path
+    TestFile::new("npy", bytes.collect::<Vec<u8>>())
 }
 
-/// The viewer on a table that has a column `q`, and its file.
-struct OnTable {
-    session: Session,
-    path: PathBuf,
+/// The viewer on a table that has a column `q`.
+fn on_table(more: &[&str]) -> Viewer {
+    let lines = lattice(SIDE_OF_TABLE).map(|[x, y, z]| format!("{x},{y},{z},0.3,{x}\n"));
+    let file = TestFile::new("csv", format!("x,y,z,r,q\n{}", lines.collect::<String>()));
+    Viewer::start_with_file(file, &[SLOW.as_slice(), more].concat())
 }
 
-impl OnTable {
-    fn start(name: &str, more: &[&str]) -> Self {
-        let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
-        let lines = lattice(SIDE_OF_TABLE).map(|[x, y, z]| format!("{x},{y},{z},0.3,{x}\n"));
-        fs::write(&path, format!("x,y,z,r,q\n{}", lines.collect::<String>())).expect("a file");
-        let name = path.to_str().expect("a path that is text");
-        let arguments = [&[name], OPTIONS.as_slice(), SLOW.as_slice(), more].concat();
-        let session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
-        Self { session, path }
-    }
-
-    fn quit(mut self) {
-        self.session.type_in("q");
-        assert!(self.session.wait_for_end().success());
-        fs::remove_file(&self.path).expect("it can be removed");
-    }
-
-    /// Types a key again and again until something is seen.
-    fn hold(&mut self, key: &str, is_seen: impl Fn(&Output) -> bool) {
-        let began = Instant::now();
-        while !is_seen(&self.session.output()) {
-            assert!(began.elapsed() < AT_LAST, "nothing is seen while {key} is held down");
-            self.session.type_in(key);
-            sleep(REPETITION);
-        }
+/// Types a key again and again until something is seen.
+fn hold(viewer: &mut Viewer, key: &str, is_seen: impl Fn(&Output) -> bool) {
+    let began = Instant::now();
+    while !is_seen(&viewer.session.output()) {
+        assert!(began.elapsed() < AT_LAST, "nothing is seen while {key} is held down");
+        viewer.session.type_in(key);
+        sleep(REPETITION);
     }
 }
 
 fn says_that_it_draws(output: &Output) -> bool {
-    output.screen().alternate_screen() && last_row(output.screen()).contains("drawing ...")
+    output.screen().alternate_screen() && output.status().contains("drawing ...")
 }
 
 /// Help opens, another structure takes over, and `q` quits.
 #[test]
 fn keys_are_answered_while_a_picture_is_drawn() {
-    let path = cube();
-    let name = path.to_str().expect("a path that is text");
-    let arguments = [&[name], OPTIONS.as_slice(), SLOW.as_slice()].concat();
-    let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
-    session.wait_for("a word about it", |output| says_that_it_draws(output).then_some(()));
-    fs::remove_file(&path).expect("it can be removed");
+    let mut viewer = Viewer::start_with_file(cube(), &SLOW);
+    let session = &mut viewer.session;
+    session.wait_until("a word about it", says_that_it_draws);
 
     let asked = Instant::now();
     session.type_in("?");
-    session.wait_for("the help", |output| {
-        let helps = output.screen().contents().contains("wheel");
-        (helps && says_that_it_draws(output)).then_some(())
+    session.wait_until("the help", |output| {
+        output.contents().contains("wheel") && says_that_it_draws(output)
     });
     assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
 
     session.type_in("?ss");
-    session.wait_for("the picture by a tree", |output| {
-        (shows_a_frame(output) && last_row(output.screen()).contains(" bvh ")).then_some(())
+    session.wait_until("the picture by a tree", |output| {
+        output.shows_a_frame() && output.status().contains(" bvh ")
     });
 
     session.type_in("ss");
-    session.wait_for("a word about it", |output| says_that_it_draws(output).then_some(()));
+    session.wait_until("a word about it", says_that_it_draws);
     let asked = Instant::now();
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
+    session.quit("q");
     assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
-    assert_eq!(session.left_behind(), [""; 0]);
 }
 
 /// From the start on, when it is not known yet how long a picture takes, and later.
 #[test]
 fn a_key_that_is_held_down_leaves_pictures_to_be_seen() {
-    let mut viewer = OnTable::start("held.csv", &[]);
+    let mut viewer = on_table(&[]);
     let mut before = Vec::<Vec<Look>>::new();
     for key in ["l", "l", "l", "f"] {
         let picture = |output: &Output| look(output.screen(), PICTURE_ROWS);
-        viewer.hold(key, |output| shows_a_frame(output) && picture(output) != before);
+        hold(&mut viewer, key, |output| output.shows_a_frame() && picture(output) != before);
         before = picture(&viewer.session.output());
     }
     viewer.quit();
@@ -127,16 +99,16 @@ fn a_key_that_is_held_down_leaves_pictures_to_be_seen() {
 /// So does Enter, which needs what draws.
 #[test]
 fn enter_that_is_held_down_leaves_a_picture_to_be_seen() {
-    let mut viewer = OnTable::start("entered.csv", &[]);
-    let picked = |viewer: &OnTable, before: &[(u16, u16)]| {
+    let mut viewer = on_table(&[]);
+    let picked = |viewer: &Viewer, before: &[(u16, u16)]| {
         viewer.session.wait_for("another cell that is picked", |output| {
             let cells = inverse(output.screen());
             let is_other = cells.len() == 1 && cells != before;
-            let is_sphere = output.screen().contents().contains("sphere ");
-            (shows_a_frame(output) && is_other).then_some((cells, is_sphere))
+            let is_sphere = output.contents().contains("sphere ");
+            (output.shows_a_frame() && is_other).then_some((cells, is_sphere))
         })
     };
-    viewer.session.wait_for("a picture", |output| shows_a_frame(output).then_some(()));
+    viewer.wait_for_frame();
     viewer.session.type_in("p");
     let (mut cell, mut is_sphere) = picked(&viewer, &[]);
     while !is_sphere {
@@ -145,7 +117,7 @@ fn enter_that_is_held_down_leaves_a_picture_to_be_seen() {
     }
     let picture = |output: &Output| look(output.screen(), PICTURE_ROWS);
     let before = picture(&viewer.session.output());
-    viewer.hold("\r", |output| shows_a_frame(output) && picture(output) != before);
+    hold(&mut viewer, "\r", |output| output.shows_a_frame() && picture(output) != before);
     viewer.quit();
 }
 
@@ -153,15 +125,14 @@ fn enter_that_is_held_down_leaves_a_picture_to_be_seen() {
 #[test]
 fn a_cell_is_picked_in_the_picture_that_is_seen() {
     let view = ["--eye", "13,13,80", "--target", "13,13,13"];
-    let mut viewer = OnTable::start("picked.csv", &view);
-    viewer.session.wait_for("a word about it", |output| says_that_it_draws(output).then_some(()));
+    let mut viewer = on_table(&view);
+    viewer.session.wait_until("a word about it", says_that_it_draws);
     // The first picture is drawn to its end. The next one is so far to the side that it is empty.
     viewer.session.type_in(&format!("p{}", "H".repeat(60)));
-    viewer.session.wait_for("an empty cell", |output| {
-        let is_empty = output.screen().contents().contains("no sphere is hit");
-        (shows_a_frame(output) && is_empty).then_some(())
+    viewer.session.wait_until("an empty cell", |output| {
+        output.shows_a_frame() && output.contents().contains("no sphere is hit")
     });
-    let is_told = viewer.session.output().sent.windows(6).any(|bytes| bytes == b"(13.0,");
+    let is_told = viewer.session.output().text().contains("(13.0,");
     assert!(is_told, "only of the next picture");
     viewer.quit();
 }
@@ -169,14 +140,14 @@ fn a_cell_is_picked_in_the_picture_that_is_seen() {
 /// The last picture stays while the next is drawn, without a legend as before.
 #[test]
 fn a_legend_comes_with_its_picture() {
-    let mut viewer = OnTable::start("back.csv", &["--legend"]);
+    let mut viewer = on_table(&["--legend"]);
     let has_legend = |output: &Output| {
         output.screen().contents_between(0, 0, 0, COLUMNS).trim_end().ends_with(" q")
     };
-    let waits_for = |viewer: &OnTable, what: &str, legend: bool| {
-        viewer.session.wait_for(what, |output| {
-            (shows_a_frame(output) && has_legend(output) == legend).then_some(())
-        });
+    let waits_for = |viewer: &Viewer, what: &str, legend: bool| {
+        viewer
+            .session
+            .wait_until(what, |output| output.shows_a_frame() && has_legend(output) == legend);
     };
     waits_for(&viewer, "the first picture", false);
     viewer.session.type_in("C");

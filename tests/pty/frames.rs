@@ -1,54 +1,28 @@
 //! The frames of a file in the viewer: keys step and play, the status line counts.
 
+use super::file::TestFile;
+use super::output::Output;
 use super::picture::OPTIONS;
-use super::session::{Output, Session};
-use super::viewer::{COLUMNS, ROWS, shows_a_frame};
-use spherule_tests::binary::spherule;
-use std::fs::{self, OpenOptions};
+use super::session::Session;
+use super::viewer::{COLUMNS, ROWS, Viewer};
+use std::fs::OpenOptions;
 use std::io::Write;
-use std::path::PathBuf;
-
-fn contents(output: &Output) -> String {
-    output.screen().contents()
-}
 
 /// The viewer on a file of frames.
-struct Film {
-    session: Session,
-    path: PathBuf,
+fn film(options: &[&str], ending: &str, bytes: impl AsRef<[u8]>) -> Viewer {
+    let viewer = Viewer::start_with_file(TestFile::new(ending, bytes), options);
+    viewer.wait_for_frame();
+    viewer
 }
 
-impl Film {
-    fn of(name: &str, bytes: &[u8]) -> Self {
-        Self::with(&[], name, bytes)
-    }
-
-    fn with(options: &[&str], name: &str, bytes: &[u8]) -> Self {
-        let path = std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()));
-        fs::write(&path, bytes).expect("a temporary file");
-        let name = path.to_str().expect("a path that is text");
-        let arguments = [&[name], options, OPTIONS.as_slice()].concat();
-        let session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
-        session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
-        Self { session, path }
-    }
-
-    fn wait_for(&self, words: &str) {
-        self.session.wait_for(words, |output| contents(output).contains(words).then_some(()));
-    }
-
-    /// Plays to the end and from the beginning, stops, and quits.
-    fn plays_and_quits(mut self) {
-        self.session.type_in(" ");
-        self.wait_for(">11/12");
-        self.wait_for(">3/12");
-        self.session.type_in(" ");
-        self.session.wait_for_peace();
-        fs::remove_file(&self.path).expect("it can be removed");
-        self.session.type_in("q");
-        assert!(self.session.wait_for_end().success());
-        assert_eq!(self.session.left_behind(), [""; 0]);
-    }
+/// Plays to the end and from the beginning, stops, and quits.
+fn plays_and_quits(mut film: Viewer) {
+    film.session.type_in(" ");
+    film.session.wait_for_words(">11/12");
+    film.session.wait_for_words(">3/12");
+    film.session.type_in(" ");
+    film.session.wait_for_peace();
+    film.quit();
 }
 
 /// Steps on and back, plays to the end, and goes on from the beginning.
@@ -56,27 +30,25 @@ impl Film {
 fn keys_step_and_play() {
     let text: String =
         (0..12).map(|index| format!("2\n\nC {index} 0 0\nO 0 {index} 0\n")).collect();
-    let mut film = Film::of("frames.xyz", text.as_bytes());
-    film.wait_for(" 0/");
+    let mut film = film(&[], "xyz", text);
+    film.session.wait_for_words(" 0/");
     film.session.type_in("..");
-    film.wait_for(" 2/");
+    film.session.wait_for_words(" 2/");
     film.session.type_in(",");
-    film.wait_for(" 1/");
-    film.plays_and_quits();
+    film.session.wait_for_words(" 1/");
+    plays_and_quits(film);
 }
 
 /// Without a key, too.
 #[test]
 fn frames_that_are_written_meanwhile_are_counted() {
     let frame = "1\n\nC 0 0 0\n";
-    let mut film = Film::with(&["--follow"], "written.xyz", frame.as_bytes());
-    film.wait_for(" 0/1+");
-    let file = OpenOptions::new().append(true).open(&film.path);
+    let film = film(&["--follow"], "xyz", frame);
+    film.session.wait_for_words(" 0/1+");
+    let file = OpenOptions::new().append(true).open(film.file.path());
     file.and_then(|mut file| file.write_all(frame.repeat(2).as_bytes())).expect("it is written");
-    film.wait_for(" 0/3+");
-    film.session.type_in("q");
-    assert!(film.session.wait_for_end().success());
-    fs::remove_file(&film.path).expect("it can be removed");
+    film.session.wait_for_words(" 0/3+");
+    film.quit();
 }
 
 /// Frames of GROMACS's `.xtc`, each of an atom at some x: so few are not compressed. What follows them has more atoms,
@@ -104,13 +76,13 @@ fn damaged_xtc(frames: u32) -> Vec<u8> {
 /// the viewer keeps the terminal. Whoever plays the film is told that there is more.
 #[test]
 fn a_damaged_frame_does_not_end_the_film() {
-    let mut film = Film::of("damaged.xtc", &damaged_xtc(12));
-    film.wait_for(" 0/");
+    let mut film = film(&[], "xtc", damaged_xtc(12));
+    film.session.wait_for_words(" 0/");
     film.session.type_in(" ");
-    film.wait_for(">11/12!");
-    film.wait_for(" frame 12: ");
+    film.session.wait_for_words(">11/12!");
+    film.session.wait_for_words(" frame 12: ");
     film.session.type_in(" ");
-    film.plays_and_quits();
+    plays_and_quits(film);
 }
 
 /// What is typed behind the end of a scene are keys, and no frame.
@@ -119,27 +91,23 @@ fn a_scene_that_is_typed_leaves_the_keys_to_the_viewer() {
     let format = ["--format", "xyz"];
     for format in [&format[..0], &format[..]] {
         let arguments = [&["-"], OPTIONS.as_slice(), format].concat();
-        let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
+        let mut session = Session::start(&arguments, &[], (COLUMNS, ROWS));
         // Ctrl-D ends it.
         session.type_in("1\n\nC 0 0 0\n\x04");
-        session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
+        session.wait_until("a frame", Output::shows_a_frame);
         session.type_in("1");
-        session.wait_for("a tier", |output| contents(output).contains(" fast ").then_some(()));
-        session.type_in("q");
-        assert!(session.wait_for_end().success());
+        session.wait_for_words(" fast ");
+        session.quit("q");
     }
 }
 
 /// The table is of the frame that is shown.
 #[test]
 fn another_frame_is_measured_anew() {
-    let mut film =
-        Film::of("table.xyz", b"2\n\nC 0 0 0\nO 0 1 0\n3\n\nC 0 0 0\nO 0 1 0\nO 1 0 0\n");
+    let mut film = film(&[], "xyz", "2\n\nC 0 0 0\nO 0 1 0\n3\n\nC 0 0 0\nO 0 1 0\nO 1 0 0\n");
     film.session.type_in("t");
-    film.wait_for("2 spheres");
+    film.session.wait_for_words("2 spheres");
     film.session.type_in(".");
-    film.wait_for("3 spheres");
-    fs::remove_file(&film.path).expect("it can be removed");
-    film.session.type_in("q");
-    assert!(film.session.wait_for_end().success());
+    film.session.wait_for_words("3 spheres");
+    film.quit();
 }

@@ -3,9 +3,9 @@
 use super::emulated::{Emulated, STATUS};
 use super::look::last_row;
 use super::modes::is_cooked;
-use super::picture::{SceneFile, once};
+use super::picture::{once, scene_file};
 use super::session::{Session, command, size};
-use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, STOPPED, VIEW, Viewer, shows_a_frame};
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, STOPPED, VIEW, Viewer};
 use portable_pty::native_pty_system;
 use rustix::process::Signal;
 use spherule_tests::binary::spherule;
@@ -16,15 +16,13 @@ use std::time::{Duration, Instant};
 /// Asserts that after a stop the terminal is the shell's, and the program's when it goes on.
 fn assert_is_left_and_taken_again(mut viewer: Viewer, go_on: impl FnOnce(&mut Session)) {
     assert!(is_cooked(&viewer.session.modes()), "the shell gets no lines");
-    viewer.session.wait_for("the normal screen", |output| {
-        (!output.screen().alternate_screen()).then_some(())
-    });
+    viewer.session.wait_until("the normal screen", |output| !output.screen().alternate_screen());
     assert_eq!(viewer.session.left_behind(), [""; 0]);
     let sent = viewer.session.output().sent.len();
     go_on(&mut viewer.session);
     viewer.wait_for_picture("the picture again", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     assert!(!is_cooked(&viewer.session.modes()));
-    let redrawn = viewer.session.output().sent[sent..].windows(4).any(|bytes| bytes == b"\x1b[2J");
+    let redrawn = viewer.session.output().text_after(sent).contains("\x1b[2J");
     assert!(redrawn, "not drawn in full");
     viewer.quit();
 }
@@ -33,9 +31,7 @@ fn assert_is_left_and_taken_again(mut viewer: Viewer, go_on: impl FnOnce(&mut Se
 fn ctrl_z_stops_a_job_and_fg_draws_again() {
     let mut viewer = Viewer::start_as_job();
     viewer.session.type_in("\x1a");
-    viewer
-        .session
-        .wait_for("the shell", |output| output.sent.ends_with(STOPPED.as_bytes()).then_some(()));
+    viewer.session.wait_until("the shell", |output| output.sent.ends_with(STOPPED.as_bytes()));
     assert_is_left_and_taken_again(viewer, |session| session.type_in("\n"));
 }
 
@@ -44,9 +40,7 @@ fn ctrl_z_stops_a_job_and_fg_draws_again() {
 fn ctrl_z_without_a_shell_stops_nothing_and_says_so() {
     let mut viewer = Viewer::start();
     viewer.session.type_in("\x1a");
-    viewer.session.wait_for("a word about it", |output| {
-        output.screen().contents().contains("no shell to continue it").then_some(())
-    });
+    viewer.session.wait_for_words("no shell to continue it");
     assert!(!is_cooked(&viewer.session.modes()));
     viewer.session.type_in("3");
     viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
@@ -68,9 +62,8 @@ fn after_a_stop_that_cannot_be_caught_it_draws_again() {
     viewer.session.wait_until_stopped();
     let sent = viewer.session.output().sent.len();
     viewer.session.signal(Signal::CONT);
-    viewer.session.wait_for("a full frame", |output| {
-        let redrawn = output.sent[sent..].windows(4).any(|bytes| bytes == b"\x1b[2J");
-        (redrawn && shows_a_frame(output)).then_some(())
+    viewer.session.wait_until("a full frame", |output| {
+        output.text_after(sent).contains("\x1b[2J") && output.shows_a_frame()
     });
     viewer.quit();
 }
@@ -93,13 +86,11 @@ fn after_a_stop_that_cannot_be_caught_it_leaves_at_once() {
 /// How long it takes to leave after it was stopped with an answer on its way.
 fn leaves_after_a_stop() -> Duration {
     const DELAY: Duration = Duration::from_millis(300);
-    let mut viewer = Viewer::start_in(late(DELAY), &[], &[], (COLUMNS, ROWS));
+    let mut viewer = Viewer::start_on(late(DELAY), &[]);
     viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.session.wait_for_peace();
     viewer.session.type_in("1");
-    viewer
-        .session
-        .wait_for("a frame", |output| last_row(output.screen()).contains(" fast ").then_some(()));
+    viewer.session.wait_for_status(" fast ");
     viewer.session.signal(Signal::STOP);
     viewer.session.wait_until_stopped();
     thread::sleep(2 * DELAY);
@@ -130,17 +121,16 @@ fn answers_on_their_way_do_not_reach_the_shell() {
                 let mut viewer = Viewer::start_in(emulated, &[], &variables, (COLUMNS, ROWS));
                 viewer.session.wait_for_peace();
                 viewer.session.type_in(" ");
-                viewer.session.wait_for("frames", |output| {
-                    let sent = String::from_utf8_lossy(&output.sent);
-                    (sent.matches(STATUS).count() > 6).then_some(())
-                });
+                viewer
+                    .session
+                    .wait_until("frames", |output| output.text().matches(STATUS).count() > 6);
                 end(&mut viewer.session);
-                viewer.session.wait_for("the normal screen", |output| {
-                    (!output.screen().alternate_screen()).then_some(())
-                });
+                viewer
+                    .session
+                    .wait_until("the normal screen", |output| !output.screen().alternate_screen());
                 thread::sleep(Duration::from_secs(1));
                 assert!(is_cooked(&viewer.session.modes()), "{what}");
-                let sent = String::from_utf8_lossy(&viewer.session.output().sent).into_owned();
+                let sent = viewer.session.output().text();
                 assert!(!sent.contains("^[["), "{what}: {sent:?}");
             });
         }
@@ -150,11 +140,8 @@ fn answers_on_their_way_do_not_reach_the_shell() {
 #[test]
 fn every_key_that_quits_does() {
     for key in ["q", "\x03", "\x1b"] {
-        let mut viewer = Viewer::start();
-        viewer.session.type_in(key);
-        let status = viewer.session.wait_for_end();
-        assert!(status.success(), "{key:?}: {status}");
-        assert_eq!(viewer.session.left_behind(), [""; 0], "{key:?}");
+        println!("{key:?}");
+        Viewer::start().session.quit(key);
     }
 }
 
@@ -162,11 +149,9 @@ fn every_key_that_quits_does() {
 #[test]
 fn without_an_alternate_screen_the_prompt_comes_below_the_picture() {
     let mut viewer = Viewer::start();
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success());
+    viewer.session.quit("q");
     let output = viewer.session.output();
-    let sent = String::from_utf8_lossy(&output.sent);
-    let sent = sent.replace("\x1b[?1049h", "").replace("\x1b[?1049l", "");
+    let sent = output.text().replace("\x1b[?1049h", "").replace("\x1b[?1049l", "");
     let (rows, columns) = output.screen().size();
     let mut terminal = vt100::Parser::new(rows, columns, 0);
     terminal.process(sent.as_bytes());
@@ -183,7 +168,7 @@ fn a_panic_is_told_on_the_normal_screen() {
     let status = viewer.session.wait_for_end();
     assert_eq!(status.exit_code(), 101, "{status}");
     assert_eq!(viewer.session.left_behind(), [""; 0]);
-    let shown = viewer.session.output().screen().contents();
+    let shown = viewer.session.output().contents();
     assert!(shown.contains("panicked at"), "{shown}");
 }
 
@@ -208,9 +193,7 @@ fn signals_restore_and_kill() {
     ] {
         let mut viewer = Viewer::start();
         viewer.session.signal(signal);
-        let status = viewer.session.wait_for_end();
-        assert_eq!(status.signal(), Some(name), "{status}");
-        assert_eq!(viewer.session.left_behind(), [""; 0], "{name}");
+        viewer.session.ends_by(name);
     }
     // A file that may not grow is an error where it is written.
     let viewer = Viewer::start();
@@ -225,9 +208,7 @@ fn killed_while_it_is_stopped_it_leaves_the_terminal_alone() {
     viewer.session.wait_until_stopped();
     viewer.session.signal(Signal::TERM);
     viewer.session.signal(Signal::CONT);
-    let status = viewer.session.wait_for_end();
-    assert_eq!(status.signal(), Some("Terminated"), "{status}");
-    assert_eq!(viewer.session.left_behind(), [""; 0]);
+    viewer.session.ends_by("Terminated");
 }
 
 #[test]
@@ -241,43 +222,51 @@ fn a_terminal_that_takes_nothing_does_not_keep_it_alive() {
     assert!(is_cooked(&viewer.session.modes()));
 }
 
+/// Also where it is in the middle of a frame.
 #[test]
 fn it_ends_with_its_terminal() {
-    let scene = SceneFile::new(&VIEW);
-    let pair = native_pty_system().openpty(size(COLUMNS, ROWS)).expect("a pseudo-terminal");
-    let mut child = pair
-        .slave
-        .spawn_command(command(spherule(), &[scene.path()], &[]))
-        .expect("the program starts");
-    let mut reader = pair.master.try_clone_reader().expect("output can be read");
-    let mut sent = Vec::new();
-    let mut bytes = [0; 4096];
-    // Waits for the end of the status line: a terminal that answers nothing gets no brackets.
-    while !sent.windows(6).any(|bytes| bytes == b"q quit") {
-        let count = reader.read(&mut bytes).expect("the program writes");
-        sent.extend_from_slice(&bytes[..count]);
+    type Until = fn(&[u8]) -> bool;
+    let scene = scene_file(&VIEW);
+    // A terminal that answers nothing gets no brackets: the status line ends a frame.
+    let has_status: Until = |sent| sent.windows(6).any(|bytes| bytes == b"q quit");
+    let cases: [(&[&str], (u16, u16), Until); 2] = [
+        (&[scene.path()], (COLUMNS, ROWS), has_status),
+        (&["marbles", "--no-probe"], (200, 60), |sent| sent.len() >= 20_000),
+    ];
+    for (arguments, (columns, rows), until) in cases {
+        let pair = native_pty_system().openpty(size(columns, rows)).expect("a pseudo-terminal");
+        let program = command(spherule(), arguments, &[]);
+        let mut child = pair.slave.spawn_command(program).expect("the program starts");
+        let mut reader = pair.master.try_clone_reader().expect("output can be read");
+        let (mut sent, mut bytes) = (Vec::new(), [0; 4096]);
+        while !until(&sent) {
+            let count = reader.read(&mut bytes).expect("the program writes");
+            sent.extend_from_slice(&bytes[..count]);
+        }
+        drop((pair, reader));
+        let status = child.wait().expect("it is our child");
+        assert_eq!(status.signal(), Some("Hangup"), "{arguments:?}: {status}");
     }
-    drop((pair, reader));
-    let status = child.wait().expect("it is our child");
-    assert_eq!(status.signal(), Some("Hangup"), "{status}");
 }
 
 /// The checks above can fail: they find everything that a careless program leaves behind, one by
 /// one.
 #[test]
 fn what_is_left_behind_is_found() {
-    let left_behind = |script: &str| {
-        let mut session = Session::start("sh", &["-c", script], &[], (COLUMNS, ROWS));
+    let cases: [(&str, &[&str]); 9] = [
+        ("printf 'hello\\n'", &[]),
+        ("printf '\\033[?1049h'", &["alternate screen", "mode 1049"]),
+        ("printf '\\033[?25l'", &["hidden cursor", "mode 25"]),
+        ("printf '\\033[?1002h'", &["mouse", "mode 1002"]),
+        ("printf '\\033[?7l\\033[?2026h'", &["mode 7", "mode 2026"]),
+        ("printf '\\033[31m'", &["foreground colour"]),
+        ("stty raw", &["line discipline"]),
+        ("stty -echo", &["line discipline"]),
+        ("saved=$(stty -g); stty raw; stty \"$saved\"", &[]),
+    ];
+    for (script, expected) in cases {
+        let mut session = Session::start_script(script, &[], (COLUMNS, ROWS));
         assert!(session.wait_for_end().success());
-        session.left_behind()
-    };
-    assert_eq!(left_behind("printf 'hello\\n'"), [""; 0]);
-    assert_eq!(left_behind("printf '\\033[?1049h'"), ["alternate screen", "mode 1049"]);
-    assert_eq!(left_behind("printf '\\033[?25l'"), ["hidden cursor", "mode 25"]);
-    assert_eq!(left_behind("printf '\\033[?1002h'"), ["mouse", "mode 1002"]);
-    assert_eq!(left_behind("printf '\\033[?7l\\033[?2026h'"), ["mode 7", "mode 2026"]);
-    assert_eq!(left_behind("printf '\\033[31m'"), ["foreground colour"]);
-    assert_eq!(left_behind("stty raw"), ["line discipline"]);
-    assert_eq!(left_behind("stty -echo"), ["line discipline"]);
-    assert_eq!(left_behind("saved=$(stty -g); stty raw; stty \"$saved\""), [""; 0]);
+        assert_eq!(session.left_behind(), expected, "{script}");
+    }
 }

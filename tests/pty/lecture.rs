@@ -1,19 +1,18 @@
 //! Walks through the lecture.
 
 use super::emulated::{ATTRIBUTES, STATUS, SYNCHRONIZED};
-use super::session::{Output, Session};
+use super::output::Output;
+use super::session::Session;
 use spherule::lecture::stations::STATIONS;
-use spherule_tests::binary::spherule;
 
 /// Starts the lecture on a terminal of the least size, with colour.
 fn start(more: &[&str]) -> Session {
-    let arguments = [&["lecture"], more].concat();
-    Session::start(spherule(), &arguments, &[], (80, 24))
+    Session::start(&[&["lecture"], more].concat(), &[], (80, 24))
 }
 
 /// The text on the screen. (The terminal's model also knows whether blanks at the end of a line were written.)
 fn contents(output: &Output) -> String {
-    let contents = output.screen().contents();
+    let contents = output.contents();
     contents.lines().map(|line| format!("{}\n", line.trim_end())).collect()
 }
 
@@ -29,12 +28,6 @@ fn heading(index: usize) -> String {
     format!("{:>2}/14  {}", index + 1, STATIONS[index].title)
 }
 
-fn quit(mut session: Session, key: &str) {
-    session.type_in(key);
-    assert!(session.wait_for_end().success());
-    assert_eq!(session.left_behind(), [""; 0]);
-}
-
 #[test]
 fn n_goes_through_all_stations_and_arrows_change_them() {
     let mut session = start(&[]);
@@ -42,13 +35,13 @@ fn n_goes_through_all_stations_and_arrows_change_them() {
         let first = shown(&session, &heading(index));
         // Left and down: in every station one of them changes something.
         session.type_in("\x1b[D\x1b[B");
-        session.wait_for("another page", |output| (contents(output) != first).then_some(()));
+        session.wait_until("another page", |output| contents(output) != first);
         session.type_in("r");
-        session.wait_for("the first page", |output| (contents(output) == first).then_some(()));
+        session.wait_until("the first page", |output| contents(output) == first);
         session.type_in("n");
     }
     shown(&session, &heading(0));
-    quit(session, "q");
+    session.quit("q");
 }
 
 #[test]
@@ -59,7 +52,7 @@ fn b_goes_back_and_so_do_the_keys_for_pages() {
         session.type_in(key);
         shown(&session, &heading(index));
     }
-    quit(session, "\x03");
+    session.quit("\x03");
 }
 
 #[test]
@@ -70,20 +63,20 @@ fn help_opens_and_escape_closes_it_before_it_quits() {
     let help = shown(&session, "Page Down");
     assert!(help.contains("Triangles are left out"), "{help}");
     session.type_in("\x1b");
-    session.wait_for("the page under it", |output| (contents(output) == first).then_some(()));
-    quit(session, "\x1b");
+    session.wait_until("the page under it", |output| contents(output) == first);
+    session.quit("\x1b");
 }
 
 #[test]
 fn it_follows_the_size_and_says_what_it_needs() {
-    let session = start(&["--station", "5"]);
+    let mut session = start(&["--station", "5"]);
     shown(&session, &heading(4));
     session.resize(60, 20);
     shown(&session, "needs 80x24, has 60x20");
     session.resize(120, 40);
     let large = shown(&session, "q quit");
     assert!(!large.contains("needs"), "{large}");
-    quit(session, "q");
+    session.quit("q");
 }
 
 /// A walk has the terminal's size.
@@ -92,7 +85,7 @@ fn a_station_of_a_size_is_written() {
     let mut session = start(&["--size", "79x24", "--station", "1"]);
     assert!(session.wait_for_end().success());
     let output = session.output();
-    assert!(!output.sent.windows(3).any(|bytes| bytes == b"\x1b[?"), "a mode is set");
+    assert!(!output.text().contains("\x1b[?"), "a mode is set");
     assert!(contents(&output).contains("needs 80x24, has 79x24"), "{}", contents(&output));
 }
 
@@ -100,14 +93,11 @@ fn a_station_of_a_size_is_written() {
 fn no_probe_asks_nothing() {
     let mut session = start(&["--no-probe"]);
     for index in [0, 1] {
-        let heading = heading(index);
-        let is_there = |output: &Output| contents(output).contains(&heading).then_some(());
-        session.wait_for(&heading, is_there);
+        session.wait_for_words(&heading(index));
         session.type_in("n");
     }
     for question in [ATTRIBUTES, STATUS, SYNCHRONIZED] {
-        let sent = String::from_utf8_lossy(&session.output().sent).into_owned();
-        assert!(!sent.contains(question), "{question:?}");
+        assert!(!session.output().text().contains(question), "{question:?}");
     }
-    quit(session, "q");
+    session.quit("q");
 }

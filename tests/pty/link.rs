@@ -1,10 +1,9 @@
-//! Frames over a link that is slow, stalls, or closes.
+//! Frames over a link that is slow or stalls.
 
 use super::emulated::{Emulated, Link};
-use super::look::{last_row, look};
-use super::session::{Output, Session, command, size};
-use portable_pty::native_pty_system;
-use spherule_tests::binary::spherule;
+use super::look::look;
+use super::output::{BEGIN, Output};
+use super::session::Session;
 use std::sync::atomic::Ordering::SeqCst;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -19,33 +18,25 @@ const LIMIT: Duration = Duration::from_millis(250);
 fn spinning(link: &Link, more: &[&str]) -> Session {
     let emulated = Emulated { link: Some(link.clone()), ..Emulated::good() };
     let arguments = [&["marbles", "--color", "truecolor"], more].concat();
-    let mut session = Session::start_in(emulated, spherule(), &arguments, &[], SIZE);
-    session.wait_for("the first picture", |output| {
-        last_row(output.screen()).contains("? help").then_some(())
-    });
+    let mut session = Session::start_in(emulated, &arguments, &[], SIZE);
+    session.wait_for_status("? help");
     session.type_in(" ");
-    session.wait_for("a rate", |output| {
-        let line = last_row(output.screen());
-        (line.contains(" fps") && !line.contains("-- fps")).then_some(())
-    });
+    session.wait_until("a rate", Output::tells_a_rate);
     session
-}
-
-fn shows(tier: &str) -> impl Fn(&Output) -> Option<usize> {
-    let tier = format!(" {tier} ");
-    move |output| last_row(output.screen()).contains(&tier).then_some(output.sent.len())
 }
 
 /// Keys while it spins: how long each takes until its effect is seen, by the clock, and by what the link carries meanwhile, for which a
 /// quiet machine would wait.
 fn delays(session: &mut Session) -> Vec<(Duration, Duration)> {
-    let keys = [("1", "fast"), ("3", "exact")].into_iter().cycle();
+    let keys = [("1", " fast "), ("3", " exact ")].into_iter().cycle();
     keys.take(20)
         .map(|(key, tier)| {
             thread::sleep(Duration::from_millis(310));
             let (before, start) = (session.output().sent.len(), Instant::now());
             session.type_in(key);
-            let after = session.wait_for(tier, shows(tier));
+            let after = session.wait_for(tier, |output| {
+                output.status().contains(tier).then_some(output.sent.len())
+            });
             let carried = Duration::from_secs_f64((after - before) as f64 / RATE);
             (start.elapsed(), carried)
         })
@@ -64,13 +55,9 @@ fn over_a_slow_link_a_key_is_seen_within_a_quarter_of_a_second() {
         delays.last()
     );
     assert!(longest.is_some_and(|carried| carried <= LIMIT), "{delays:?}");
-    {
-        let line = last_row(session.output().screen());
-        assert!(line.contains(" kB rtt "), "{line}");
-    }
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
-    assert_eq!(session.left_behind(), [""; 0]);
+    let line = session.output().status();
+    assert!(line.contains(" kB rtt "), "{line}");
+    session.quit("q");
 }
 
 /// What is asked for at rest is sent in parts, and a key in between is seen as soon.
@@ -85,16 +72,15 @@ fn over_a_slow_link_the_picture_becomes_exact_at_rest() {
     session.signal(rustix::process::Signal::TSTP);
     session.wait_until_stopped();
     session.signal(rustix::process::Signal::CONT);
-    session.wait_for("a full frame", |output| {
+    session.wait_until("a full frame", |output| {
         let start = output.sent.len().saturating_sub(400_000);
-        let redrawn = output.sent[start..].windows(8).any(|bytes| bytes == b"\x1b[?1049h");
-        (redrawn && last_row(output.screen()).contains("? help")).then_some(())
+        let redrawn = output.text_after(start).contains("\x1b[?1049h");
+        redrawn && output.status().contains("? help")
     });
     session.wait_for_peace();
     let again = look(session.output().screen(), SIZE.1 - 1);
     assert!(shown == again, "the picture at rest is not what is drawn anew");
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
+    session.quit("q");
 }
 
 /// While the link stalls, nothing is queued. Afterwards at most the two frames that were under way arrive, and then the frame that is
@@ -111,30 +97,12 @@ fn a_link_that_stalls_queues_nothing() {
     session.type_in("1");
     thread::sleep(Duration::from_secs(1));
     link.is_stalled.store(false, SeqCst);
-    let after = session.wait_for("the key", shows("fast"));
-    let frames = |bytes: &[u8]| bytes.windows(8).filter(|bytes| *bytes == b"\x1b[?2026h").count();
-    let between = frames(&session.output().sent[before..after]);
+    let between = session.wait_for("the key", |output| {
+        let is_seen = output.status().contains(" fast ");
+        is_seen.then(|| output.text_after(before).matches(BEGIN).count())
+    });
     assert!(between <= 3, "{between} frames before the key's");
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
-    assert_eq!(session.left_behind(), [""; 0]);
-}
-
-/// The program ends as with a terminal that is closed.
-#[test]
-fn a_link_that_closes_in_the_middle_of_a_frame() {
-    let pair = native_pty_system().openpty(size(SIZE.0, SIZE.1)).expect("a pseudo-terminal");
-    let arguments = ["marbles", "--no-probe"];
-    let program = command(spherule(), &arguments, &[]);
-    let mut child = pair.slave.spawn_command(program).expect("the program starts");
-    let mut reader = pair.master.try_clone_reader().expect("output can be read");
-    let (mut bytes, mut count) = ([0; 4096], 0);
-    while count < 20_000 {
-        count += std::io::Read::read(&mut reader, &mut bytes).expect("the program writes");
-    }
-    drop((pair, reader));
-    let status = child.wait().expect("it is our child");
-    assert_eq!(status.signal(), Some("Hangup"), "{status}");
+    session.quit("q");
 }
 
 /// `--fps` limits how many frames are sent.
@@ -144,11 +112,7 @@ fn frames_are_no_more_than_asked_for() {
     let mut session = spinning(&link, &["--fps", "5"]);
     let start = session.output().sent.len();
     thread::sleep(Duration::from_secs(2));
-    let frames = {
-        let sent = &session.output().sent[start..];
-        sent.windows(8).filter(|bytes| *bytes == b"\x1b[?2026h").count()
-    };
+    let frames = session.output().text_after(start).matches(BEGIN).count();
     assert!((1..=11).contains(&frames), "{frames} frames in two seconds");
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
+    session.quit("q");
 }

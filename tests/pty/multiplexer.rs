@@ -1,8 +1,8 @@
 //! In tmux and GNU screen, which show a terminal of their own.
 
 use super::emulated::{ATTRIBUTES, Emulated, PEN, STATUS};
+use super::output::Output;
 use super::picture::once;
-use super::session::Output;
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 use std::thread;
 use std::time::Duration;
@@ -13,16 +13,12 @@ const IN_TMUX: &str = "/tmp/tmux-1000/default,1,0";
 const WRAPPED: &str = "\x1bPtmux;\x1b\x1b_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA\x1b\x1b\\\x1b\\";
 /// What that terminal answers.
 const HAS_IMAGES: &str = "\x1b_Gi=31;OK\x1b\\";
-const PLACEHOLDER: char = '\u{10EEEE}';
+const PLACEHOLDER: &str = "\u{10EEEE}";
 
 /// The viewer with `more` options in one that has such attributes.
 fn start(attributes: &'static str, more: &[&str], term: &str, tmux: &str) -> Viewer {
     let emulated = Emulated::with(&[(STATUS, "\x1b[0n"), (ATTRIBUTES, attributes)]);
     Viewer::start_in(emulated, more, &[("TERM", term), ("TMUX", tmux)], (COLUMNS, ROWS))
-}
-
-fn text(output: &Output) -> String {
-    String::from_utf8_lossy(&output.sent).into_owned()
 }
 
 fn wait_for_cells(viewer: &Viewer) {
@@ -40,7 +36,7 @@ fn they_are_asked_what_they_understand() {
     ] {
         let viewer = start("\x1b[?1;2c", &[], term, tmux);
         wait_for_cells(&viewer);
-        let sent = text(&viewer.session.output());
+        let sent = viewer.session.output().text();
         assert!(!sent.contains("\x1b_"), "{term}, {tmux}: {sent:?}");
         assert_eq!(sent.contains(PEN), gets_dcs, "{term}, {tmux}: {sent:?}");
         viewer.quit();
@@ -55,17 +51,14 @@ fn there_are_pixels_if_the_terminal_behind_tmux_answers() {
     {
         let mut viewer = start(attributes, &["--output", "kitty"], "tmux-256color", IN_TMUX);
         if gets_pixels {
-            let has_pixels = |output: &Output| text(output).contains(PLACEHOLDER).then_some(());
-            viewer.session.wait_for("placeholders", has_pixels);
+            viewer.session.wait_for_text(PLACEHOLDER);
         } else {
-            viewer.session.wait_for("a word about it", |output| {
-                output.screen().contents().contains("the terminal has none").then_some(())
-            });
+            viewer.session.wait_for_words("the terminal has none");
             viewer.session.type_in("3");
             wait_for_cells(&viewer);
-            assert!(!text(&viewer.session.output()).contains(PLACEHOLDER));
+            assert!(!viewer.session.output().text().contains(PLACEHOLDER));
         }
-        assert!(text(&viewer.session.output()).contains(WRAPPED));
+        assert!(viewer.session.output().text().contains(WRAPPED));
         viewer.quit();
     }
 }
@@ -78,11 +71,11 @@ fn start_before_the_answer() -> Viewer {
 #[test]
 fn a_terminal_behind_tmux_that_answers_late_gets_pixels() {
     let mut viewer = start_before_the_answer();
-    let is_denied = |output: &Output| output.screen().contents().contains("the terminal has none");
-    viewer.session.wait_for("a word about it", |output| is_denied(output).then_some(()));
+    let is_denied = |output: &Output| output.contents().contains("the terminal has none");
+    viewer.session.wait_until("a word about it", is_denied);
     viewer.session.type_in(HAS_IMAGES);
-    viewer.session.wait_for("placeholders", |output| {
-        (text(output).contains(PLACEHOLDER) && !is_denied(output)).then_some(())
+    viewer.session.wait_until("placeholders", |output| {
+        output.text().contains(PLACEHOLDER) && !is_denied(output)
     });
     viewer.quit();
 }
@@ -91,13 +84,13 @@ fn a_terminal_behind_tmux_that_answers_late_gets_pixels() {
 #[test]
 fn the_answer_from_behind_tmux_does_not_reach_the_shell() {
     let mut viewer = start_before_the_answer();
-    viewer.session.wait_for("the question", |output| text(output).contains(WRAPPED).then_some(()));
+    viewer.session.wait_for_text(WRAPPED);
     thread::sleep(Duration::from_millis(250));
     viewer.session.type_in("q");
     thread::sleep(Duration::from_millis(150));
     viewer.session.type_in(HAS_IMAGES);
     assert!(viewer.session.wait_for_end().success());
-    let sent = text(&viewer.session.output());
+    let sent = viewer.session.output().text();
     assert!(!sent.contains("^[_"), "{sent:?}");
     assert_eq!(viewer.session.unread(), 0);
 }
@@ -107,6 +100,6 @@ fn the_answer_from_behind_tmux_does_not_reach_the_shell() {
 fn auto_takes_no_sixels_of_tmux() {
     let viewer = start("\x1b[?1;2;4c", &["--output", "auto"], "tmux-256color", IN_TMUX);
     wait_for_cells(&viewer);
-    assert!(!text(&viewer.session.output()).contains("\x1bP0;1"));
+    assert!(!viewer.session.output().text().contains("\x1bP0;1"));
     viewer.quit();
 }

@@ -1,9 +1,9 @@
 //! Picking cells, and moving and framing pictures.
 
 use super::look::inverse;
+use super::output::Output;
 use super::picture::once;
-use super::session::Output;
-use super::viewer::{COLUMNS, PICTURE_ROWS, VIEW, Viewer, shows_a_frame};
+use super::viewer::{COLUMNS, PICTURE_ROWS, VIEW, Viewer};
 use spherule::scene::framing::reframed;
 use spherule::view::{View, panned};
 use spherule::viewer::PAN_STEP;
@@ -13,16 +13,15 @@ const ASPECT: f32 = 0.5 * COLUMNS as f32 / PICTURE_ROWS as f32;
 
 /// Waits until this cell alone is marked, and `text` stands over the picture.
 fn wait_for_pick(viewer: &Viewer, cell: (u16, u16), text: &str) {
-    viewer.session.wait_for(text, |output| {
+    viewer.session.wait_until(text, |output| {
         let picked = inverse(output.screen()) == [cell];
-        let told = output.screen().contents().contains(text);
-        (shows_a_frame(output) && picked && told).then_some(())
+        output.shows_a_frame() && picked && output.contents().contains(text)
     });
 }
 
 /// The word that follows `before` on the screen, up to the next blank.
 fn word_after(output: &Output, before: &str) -> String {
-    let contents = output.screen().contents();
+    let contents = output.contents();
     let (_, rest) = contents.split_once(before).expect(before);
     rest.split_whitespace().next().expect("a word").to_owned()
 }
@@ -37,7 +36,7 @@ fn p_picks_arrows_lead_on_and_escape_ends_it_alone() {
     {
         let output = viewer.session.output();
         for part in ["decided by f64", "fast", "geometric", "stable", "exact", "0x"] {
-            assert!(output.screen().contents().contains(part), "{part}");
+            assert!(output.contents().contains(part), "{part}");
         }
         let d: f64 = word_after(&output, "D = ").parse().expect("a number");
         assert!(d > 0.0, "{d}");
@@ -79,8 +78,7 @@ fn without_colour_the_cell_is_marked_too() {
     wait_for_pick(&viewer, (COLUMNS / 2, PICTURE_ROWS / 2), "sphere 0: ");
     {
         let output = viewer.session.output();
-        assert!(output.screen().contents().is_ascii());
-        assert!(!output.sent.windows(4).any(|bytes| bytes == b"\x1b[38" || bytes == b"\x1b[48"));
+        assert!(output.contents().is_ascii() && !output.has_colors());
     }
     viewer.quit();
 }
@@ -91,10 +89,10 @@ fn in_a_terminal_that_is_small_it_is_cut() {
     viewer.session.type_in("p");
     for (columns, rows) in [(20, 6), (1, 1), (3, 2), (200, 60), (1, 9)] {
         viewer.session.resize(columns, rows);
-        viewer.session.wait_for("the cell", |output| {
+        viewer.session.wait_until("the cell", |output| {
             let (cells_high, cells_wide) = output.screen().size();
             let sized = (cells_wide.get(), cells_high.get()) == (columns, rows);
-            (sized && inverse(output.screen()).len() == 1).then_some(())
+            sized && inverse(output.screen()).len() == 1
         });
     }
     viewer.quit();

@@ -1,38 +1,16 @@
 //! The picture that a screen should show, made in another way: by `spherule --once` with its camera
 //! at the same place.
 
+use super::file::TestFile;
 use super::look::{Look, look};
 use spherule::view::{Lens, View};
 use spherule_tests::binary::spherule;
-use std::fs;
 use std::num::NonZeroU16;
-use std::path::PathBuf;
-use std::process::{self, Command, Stdio};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::process::{Command, Stdio};
 
-/// A scene of three lit spheres and a shadow, in a file of its own, seen from `view`.
-pub(crate) struct SceneFile {
-    path: PathBuf,
-}
-
-impl SceneFile {
-    pub(crate) fn new(view: &View) -> Self {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-        let number = COUNT.fetch_add(1, Ordering::Relaxed);
-        let path = std::env::temp_dir().join(format!("spherule-{}-{number}.toml", process::id()));
-        fs::write(&path, text(view)).expect("a temporary file");
-        Self { path }
-    }
-
-    pub(crate) fn path(&self) -> &str {
-        self.path.to_str().expect("a path that is text")
-    }
-}
-
-impl Drop for SceneFile {
-    fn drop(&mut self) {
-        let _ = fs::remove_file(&self.path);
-    }
+/// A scene of three lit spheres and a shadow, seen from `view`.
+pub(crate) fn scene_file(view: &View) -> TestFile {
+    TestFile::new("toml", text(view))
 }
 
 /// Options under which viewer and `--once` draw the same; both get them.
@@ -85,7 +63,7 @@ pub(crate) fn once(view: &View, columns: u16, rows: u16) -> Vec<Vec<Look>> {
 
 /// The same with more options.
 pub(crate) fn once_with(options: &[&str], view: &View, columns: u16, rows: u16) -> Vec<Vec<Look>> {
-    let scene = SceneFile::new(view);
+    let scene = scene_file(view);
     let mut command = Command::new(spherule());
     drawn(command.arg(scene.path()).args(OPTIONS).args(options), columns, rows)
 }

@@ -3,9 +3,11 @@
 use super::emulated::{
     ATTRIBUTES, CELL_PIXELS, Emulated, IMAGE, Manner, Rule, STATUS, SYNCHRONIZED,
 };
-use super::look::last_row;
-use super::picture::{OPTIONS, SceneFile, once};
-use super::session::{Output, Session};
+use super::file::TestFile;
+use super::look::look;
+use super::output::Output;
+use super::picture::{once, once_by, scene_file};
+use super::session::Session;
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -66,79 +68,63 @@ fn png(path: &str) -> (u32, u32, Vec<u8>) {
     (width, height, rgb)
 }
 
-fn text(output: &Output) -> String {
-    String::from_utf8_lossy(&output.sent).into_owned()
-}
-
 #[test]
 fn kitty_shows_the_pixels_of_the_png_and_nothing_is_left() {
-    let expected = png(SceneFile::new(&VIEW).path());
-    let emulated = Emulated::with(&KITTY);
-    let mut viewer = Viewer::start_in(emulated, &["--output", "kitty"], &[], (COLUMNS, ROWS));
+    let expected = png(scene_file(&VIEW).path());
+    let mut viewer = Viewer::start_on(Emulated::with(&KITTY), &["--output", "kitty"]);
     let wait = |viewer: &Viewer, what: &str| {
-        viewer.session.wait_for(what, |output| {
-            (last_image(&output.sent)? == expected && last_row(output.screen()).contains("? help"))
-                .then_some(())
+        viewer.session.wait_until(what, |output| {
+            last_image(&output.sent).as_ref() == Some(&expected)
+                && output.status().contains("? help")
         });
     };
     wait(&viewer, "the pixels of the PNG");
     // Moved away and back, the picture at rest is the same; text appears over it, and goes.
     viewer.session.type_in("lr?");
-    viewer
-        .session
-        .wait_for("the help", |output| output.screen().contents().contains("wheel").then_some(()));
+    viewer.session.wait_for_words("wheel");
     viewer.session.type_in("?");
     wait(&viewer, "the same pixels");
-    viewer.session.wait_for("no help", |output| {
-        (!output.screen().contents().contains("wheel")).then_some(())
-    });
+    viewer.session.wait_until("no help", |output| !output.contents().contains("wheel"));
     viewer.session.wait_for_peace();
     // Views made of cells are shown in cells, without an image behind them.
     viewer.session.type_in("e");
-    viewer.session.wait_for("the errors", |output| {
-        (output.screen().contents().contains("exact: all right")
-            && text(output).rfind(REMOVED[0]) > text(output).rfind("\x1b_Ga=T"))
-        .then_some(())
+    let is_gone = |output: &Output, removed: &str| {
+        let text = output.text();
+        text.rfind(removed) > text.rfind("\x1b_Ga=T")
+    };
+    viewer.session.wait_until("the errors", |output| {
+        output.contents().contains("exact: all right") && is_gone(output, REMOVED[0])
     });
     viewer.session.type_in("e");
     wait(&viewer, "the pixels again");
     // The program is suspended.
     viewer.session.signal(Signal::TSTP);
     viewer.session.wait_until_stopped();
-    let is_removed = |output: &Output| {
-        let text = text(output);
-        REMOVED.iter().all(|removed| text.rfind(removed) > text.rfind("\x1b_Ga=T"))
-    };
-    viewer.session.wait_for("the removal", |output| is_removed(output).then_some(()));
+    let is_removed = |output: &Output| REMOVED.iter().all(|removed| is_gone(output, removed));
+    viewer.session.wait_until("the removal", is_removed);
     viewer.session.signal(Signal::CONT);
     wait(&viewer, "the pixels after a stop");
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success());
-    assert_eq!(viewer.session.left_behind(), [""; 0]);
+    viewer.session.quit("q");
     assert!(is_removed(&viewer.session.output()));
 }
 
 /// A file has no cells: the terminal from which the program was started has no part in what is written.
 #[test]
 fn a_file_gets_the_pixels_of_the_png_from_whatever_terminal() {
-    let file = std::env::temp_dir().join(format!("spherule-{}-kitty", std::process::id()));
+    let file = TestFile::not_yet("kitty");
     let options = format!("--size {COLUMNS}x{PICTURE_ROWS} --output kitty");
-    let script = format!("read -r line; \"$0\" unit {options} >'{}'", file.display());
-    let program = spherule();
-    let arguments = ["-c", script.as_str(), program.to_str().expect("text")];
-    let mut session = Session::start("sh", &arguments, &[], (COLUMNS, ROWS));
+    let script = format!("read -r line; \"$0\" unit {options} >'{}'", file.path());
+    let mut session = Session::start_script(&script, &[], (COLUMNS, ROWS));
     session.resize_cells(12, 20);
     session.type_in("\n");
     assert!(session.wait_for_end().success());
-    let sent = std::fs::read(&file).expect("a file");
-    std::fs::remove_file(&file).expect("it can be removed");
+    let sent = std::fs::read(file.path()).expect("a file");
     assert!(last_image(&sent) == Some(png("unit")), "other pixels");
 }
 
 /// A molecule of two chains is coloured by chain, as in a PNG, and by the next choice at a key.
 #[test]
 fn pixels_have_the_colours_that_are_chosen() {
-    let molecule = std::env::temp_dir().join(format!("spherule-{}-chains.pdb", std::process::id()));
     let atom = |number: i32, chain: char| {
         let x = f64::from(3 * number);
         format!(
@@ -146,31 +132,22 @@ fn pixels_have_the_colours_that_are_chosen() {
         )
     };
     let atoms = [atom(1, 'A'), atom(2, 'A'), atom(3, 'B'), atom(4, 'B')].concat();
-    std::fs::write(&molecule, atoms).expect("it is written");
-    let path = molecule.to_str().expect("a path that is text");
-    let expected = png(path);
-    let arguments = [&[path], OPTIONS.as_slice(), &["--output", "kitty"]].concat();
-    let emulated = Emulated::with(&KITTY);
-    let mut session = Session::start_in(emulated, spherule(), &arguments, &[], (COLUMNS, ROWS));
-    session.wait_for("the pixels of the PNG", |output| {
-        (last_image(&output.sent)? == expected).then_some(())
-    });
-    session.type_in("C");
-    session
-        .wait_for("other colours", |output| (last_image(&output.sent)? != expected).then_some(()));
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
-    std::fs::remove_file(&molecule).expect("it is there");
+    let molecule = TestFile::new("pdb", atoms);
+    let expected = png(molecule.path());
+    let (kitty, options) = (Emulated::with(&KITTY), ["--output", "kitty"]);
+    let mut viewer = Viewer::start_by(molecule, kitty, &options, &[], (COLUMNS, ROWS));
+    let shows = |output: &Output| last_image(&output.sent).map(|image| image == expected);
+    viewer.session.wait_until("the pixels of the PNG", |output| shows(output) == Some(true));
+    viewer.session.type_in("C");
+    viewer.session.wait_until("other colours", |output| shows(output) == Some(false));
+    viewer.quit();
 }
 
 /// The terminal claims to have kitty's images, but has none: the first image gets no answer.
 #[test]
 fn a_terminal_that_lies_gets_cells() {
-    let mut viewer =
-        Viewer::start_in(Emulated::with(&KITTY[..5]), &["--output", "kitty"], &[], (COLUMNS, ROWS));
-    viewer.session.wait_for("a word about it", |output| {
-        output.screen().contents().contains("--output kitty: the terminal has none").then_some(())
-    });
+    let mut viewer = Viewer::start_on(Emulated::with(&KITTY[..5]), &["--output", "kitty"]);
+    viewer.session.wait_for_words("--output kitty: the terminal has none");
     viewer.session.type_in("13");
     viewer.wait_for_picture("cells", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.quit();
@@ -183,30 +160,26 @@ fn answers_to_earlier_frames_deny_no_image() {
     let answers = Manner { rules: KITTY.to_vec(), delay, is_torn: false };
     let emulated = Emulated { answers, link: None };
     let options = ["--show", "error", "--output", "kitty"];
-    let mut viewer = Viewer::start_in(emulated, &options, &[], (COLUMNS, ROWS));
+    let mut viewer = Viewer::start_on(emulated, &options);
     viewer.session.wait_for_peace();
     // It spins, in cells, with two frames under way.
     viewer.session.type_in(" ");
-    viewer
-        .session
-        .wait_for("frames", |output| (text(output).matches(STATUS).count() > 4).then_some(()));
+    viewer.session.wait_until("frames", |output| output.text().matches(STATUS).count() > 4);
     viewer.session.type_in("e ");
-    viewer.session.wait_for("an image", |output| last_image(&output.sent).is_some().then_some(()));
+    viewer.session.wait_until("an image", |output| last_image(&output.sent).is_some());
     thread::sleep(3 * delay);
-    assert!(!viewer.session.output().screen().contents().contains("the terminal has none"));
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success());
+    assert!(!viewer.session.output().contents().contains("the terminal has none"));
+    viewer.quit();
 }
 
 /// A terminal that says that it has no pixels gets none.
 #[test]
 fn a_terminal_that_has_no_pixels_gets_cells() {
     for (output, begins) in [("kitty", "\x1b_Ga=T"), ("sixel", "\x1bP0;1"), ("auto", "\x1b_Ga=T")] {
-        let mut viewer =
-            Viewer::start_in(Emulated::good(), &["--output", output], &[], (COLUMNS, ROWS));
+        let mut viewer = Viewer::start_as(&["--output", output]);
         viewer.session.type_in("13");
         viewer.wait_for_picture("cells", &once(&VIEW, COLUMNS, PICTURE_ROWS));
-        assert!(!text(&viewer.session.output()).contains(begins), "{output}");
+        assert!(!viewer.session.output().text().contains(begins), "{output}");
         viewer.quit();
     }
 }
@@ -216,30 +189,24 @@ fn auto_takes_the_pixels_that_there_are() {
     let sixel =
         [(CELL_PIXELS, "\x1b[6;16;8t"), (STATUS, "\x1b[0n"), (ATTRIBUTES, "\x1b[?62;4;22c")];
     for (rules, begins) in [(&KITTY[..], "\x1b_Ga=T"), (&sixel[..], "\x1bP0;1;0q\"1;1;640;304")] {
-        let emulated = Emulated::with(rules);
-        let mut viewer = Viewer::start_in(emulated, &["--output", "auto"], &[], (COLUMNS, ROWS));
-        viewer.session.wait_for("pixels", |output| text(output).contains(begins).then_some(()));
-        viewer.session.type_in("q");
-        assert!(viewer.session.wait_for_end().success());
-        assert_eq!(viewer.session.left_behind(), [""; 0]);
+        let viewer = Viewer::start_on(Emulated::with(rules), &["--output", "auto"]);
+        viewer.session.wait_for_text(begins);
+        viewer.quit();
     }
 }
 
 /// Another font may leave columns and rows as they are.
 #[test]
 fn cells_of_another_size_have_as_many_pixels() {
-    let emulated = Emulated::with(&KITTY);
-    let mut viewer = Viewer::start_in(emulated, &["--output", "kitty"], &[], (COLUMNS, ROWS));
+    let viewer = Viewer::start_on(Emulated::with(&KITTY), &["--output", "kitty"]);
     for (width, height) in [(8, 16), (12, 24), (7, 14)] {
         viewer.session.resize_cells(width, height);
         let expected = (u32::from(COLUMNS * width), u32::from(PICTURE_ROWS * height));
-        viewer.session.wait_for("pixels of the new size", |output| {
-            let (across, down, _) = last_image(&output.sent)?;
-            ((across, down) == expected).then_some(())
+        viewer.session.wait_until("pixels of the new size", |output| {
+            last_image(&output.sent).is_some_and(|(across, down, _)| (across, down) == expected)
         });
     }
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success());
+    viewer.quit();
 }
 
 /// `y` shows the command line of the view, which is also printed at the end: it draws what was seen.
@@ -254,21 +221,18 @@ fn the_command_line_that_y_tells_draws_what_is_seen() {
         ("--background 203040 --depth-cue=on", "k1"),
     ] {
         let more: Vec<&str> = more.split_whitespace().collect();
-        let mut viewer = Viewer::start_as(&more, &[], COLUMNS, ROWS);
+        let mut viewer = Viewer::start_as(&more);
         viewer.wait_for_frame();
         viewer.session.type_in(keys);
         viewer.session.wait_for_peace();
-        let seen = super::look::look(viewer.session.output().screen(), PICTURE_ROWS);
+        let seen = look(viewer.session.output().screen(), PICTURE_ROWS);
         viewer.session.type_in("y");
-        viewer.session.wait_for("the line", |output| {
-            output.screen().contents().contains(" --eye ").then_some(())
-        });
-        viewer.session.type_in("yq");
-        assert!(viewer.session.wait_for_end().success());
-        let text = text(&viewer.session.output());
+        viewer.session.wait_for_words(" --eye ");
+        viewer.session.quit("yq");
+        let text = viewer.session.output().text();
         let line = text.rsplit("\x1b[?1049l").next().expect("the normal screen");
         let line = line.lines().next().expect("a line").trim();
         let line = &line[line.find("spherule ").expect("the program")..];
-        assert_eq!(super::picture::once_by(line, COLUMNS, PICTURE_ROWS), seen, "{line}");
+        assert_eq!(once_by(line, COLUMNS, PICTURE_ROWS), seen, "{line}");
     }
 }

@@ -3,9 +3,10 @@
 use super::emulated::{
     ATTRIBUTES, BACKGROUND, CELL_PIXELS, Emulated, IMAGE, Manner, PEN, Rule, STATUS, SYNCHRONIZED,
 };
-use super::look::{last_row, look};
-use super::picture::{SceneFile, once};
-use super::session::{Output, Session};
+use super::look::look;
+use super::output::{BEGIN, Output};
+use super::picture::{once, scene_file};
+use super::session::Session;
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 use spherule_tests::binary::spherule;
 use std::thread;
@@ -50,23 +51,25 @@ fn knows(rules: &[Rule], asked: &str, part: &str) -> bool {
 
 fn shows_the_picture(output: &Output) -> bool {
     look(output.screen(), PICTURE_ROWS) == once(&VIEW, COLUMNS, PICTURE_ROWS)
-        && last_row(output.screen()).contains("? help  q quit")
+        && output.status().contains("? help  q quit")
 }
 
 /// Asserts that the picture is right, all keys work, and nothing is left behind.
 fn assert_is_usable(mut viewer: Viewer, what: &str) {
     viewer.wait_for_look(what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    type_tiers(&mut viewer);
+    viewer.wait_for_look(what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    println!("{what}");
+    viewer.session.quit("q");
+    assert_eq!(viewer.session.output().contents(), "", "{what}");
+}
+
+/// Types keys of tiers, the last of which is the first picture's.
+fn type_tiers(viewer: &mut Viewer) {
     for (key, tier) in [("1", " fast "), ("3", " exact ")] {
         viewer.session.type_in(key);
-        viewer
-            .session
-            .wait_for(tier, |output| last_row(output.screen()).contains(tier).then_some(()));
+        viewer.session.wait_for_status(tier);
     }
-    viewer.wait_for_look(what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success(), "{what}");
-    assert_eq!(viewer.session.left_behind(), [""; 0], "{what}");
-    assert_eq!(viewer.session.output().screen().contents(), "", "{what}");
 }
 
 #[test]
@@ -82,16 +85,16 @@ fn every_terminal_shows_the_picture_and_is_left_as_it_was() {
             let what = format!("{name}, torn: {is_torn}");
             viewer.wait_for_look(&what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
             {
-                let sent = &viewer.session.output().sent;
-                let has = |what: &[u8]| sent.windows(what.len()).any(|bytes| bytes == what);
+                let sent = viewer.session.output().text();
                 // Torn answers may come late, and count only from then on.
                 if !is_torn {
                     let is_known = knows(&rules, SYNCHRONIZED, ";2$");
-                    assert_eq!(has(b"\x1b[?2026h"), is_known, "{what}");
-                    let asked = sent.windows(4).filter(|bytes| *bytes == b"\x1b[5n").count();
+                    assert_eq!(sent.contains(BEGIN), is_known, "{what}");
+                    let asked = sent.matches(STATUS).count();
                     assert!(asked > 1, "{what}: it is not asked how far it has come");
                 }
-                assert!(term != "linux" || !(has(b"\x1bP") || has(b"\x1b]") || has(b"\x1b_")));
+                let strings = ["\x1bP", "\x1b]", "\x1b_"];
+                assert!(term != "linux" || !strings.iter().any(|begin| sent.contains(begin)));
             }
             assert_is_usable(viewer, &what);
         }
@@ -100,25 +103,20 @@ fn every_terminal_shows_the_picture_and_is_left_as_it_was() {
 
 #[test]
 fn a_silent_terminal_is_waited_for_no_longer_than_a_moment_and_asked_no_more() {
-    let viewer = Viewer::start_in(Emulated::with(&[]), &[], &[], (COLUMNS, ROWS));
+    let viewer = Viewer::start_on(Emulated::with(&[]), &[]);
     viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
-    let count = |what: &[u8]| {
-        let sent = &viewer.session.output().sent;
-        sent.windows(what.len()).filter(|bytes| *bytes == what).count()
-    };
-    assert_eq!((count(b"\x1b[c"), count(b"\x1b[5n"), count(b"\x1b[?2026h")), (1, 1, 0));
+    let sent = viewer.session.output().text();
+    assert_eq!([ATTRIBUTES, STATUS, BEGIN].map(|what| sent.matches(what).count()), [1, 1, 0]);
     assert_is_usable(viewer, "silent");
 }
 
 #[test]
 fn no_probe_asks_nothing() {
-    let viewer = Viewer::start_in(Emulated::good(), &["--no-probe"], &[], (COLUMNS, ROWS));
+    let viewer = Viewer::start_as(&["--no-probe"]);
     viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
-    {
-        let sent = String::from_utf8_lossy(&viewer.session.output().sent).into_owned();
-        for question in QUESTIONS {
-            assert!(!sent.contains(question.1), "{question:?}");
-        }
+    let sent = viewer.session.output().text();
+    for question in QUESTIONS {
+        assert!(!sent.contains(question.1), "{question:?}");
     }
     assert_is_usable(viewer, "not asked");
 }
@@ -137,20 +135,13 @@ fn late_answers_count_from_then_on() {
 fn late_answers_count(name: &str, rules: Vec<Rule>) {
     let answers = Manner { rules, delay: Duration::from_secs(3), is_torn: false };
     let is_known = knows(&answers.rules, SYNCHRONIZED, ";2$");
-    let emulated = Emulated { answers, link: None };
-    let mut viewer = Viewer::start_in(emulated, &[], &[], (COLUMNS, ROWS));
+    let mut viewer = Viewer::start_on(Emulated { answers, link: None }, &[]);
     viewer.wait_for_look(name, &once(&VIEW, COLUMNS, PICTURE_ROWS));
     thread::sleep(Duration::from_millis(3300));
     let sent = viewer.session.output().sent.len();
-    for (key, tier) in [("1", " fast "), ("3", " exact ")] {
-        viewer.session.type_in(key);
-        viewer
-            .session
-            .wait_for("a frame", |output| last_row(output.screen()).contains(tier).then_some(()));
-    }
-    let has_brackets =
-        |output: &Output| output.sent[sent..].windows(8).any(|bytes| bytes == b"\x1b[?2026h");
-    assert_eq!(has_brackets(&viewer.session.output()), is_known, "{name}");
+    type_tiers(&mut viewer);
+    let has_brackets = viewer.session.output().text_after(sent).contains(BEGIN);
+    assert_eq!(has_brackets, is_known, "{name}");
     assert_is_usable(viewer, name);
 }
 
@@ -159,17 +150,14 @@ fn late_answers_count(name: &str, rules: Vec<Rule>) {
 fn late_answers_do_not_reach_the_shell() {
     let rules = vec![(STATUS, "\x1b[0n"), (ATTRIBUTES, "\x1b[?62;22c")];
     let answers = Manner { rules, delay: Duration::from_millis(400), is_torn: false };
-    let scene = SceneFile::new(&VIEW);
-    let program = spherule();
-    let then = format!("'{}' '{}'; sleep 1", program.display(), scene.path());
-    let emulated = Emulated { answers, link: None };
-    let mut session = Session::start_in(emulated, "sh", &["-c", &then], &[], (COLUMNS, ROWS));
-    session.wait_for("the questions", |output| {
-        output.sent.windows(3).any(|bytes| bytes == ATTRIBUTES.as_bytes()).then_some(())
-    });
+    let scene = scene_file(&VIEW);
+    let then = format!("'{}' '{}'; sleep 1", spherule().display(), scene.path());
+    let (emulated, arguments) = (Emulated { answers, link: None }, ["-c", then.as_str()]);
+    let mut session = Session::start_program(emulated, "sh", &arguments, &[], (COLUMNS, ROWS));
+    session.wait_for_text(ATTRIBUTES);
     session.type_in("q");
     assert!(session.wait_for_end().success());
-    let sent = String::from_utf8_lossy(&session.output().sent).into_owned();
+    let sent = session.output().text();
     assert!(!sent.contains("^[["), "{sent:?}");
 }
 
@@ -186,8 +174,7 @@ fn half_a_string_for_ever_is_no_key() {
 }
 
 fn half_an_answer_is_no_key(half: &'static str) {
-    let rules = [(BACKGROUND, half)];
-    let viewer = Viewer::start_in(Emulated::with(&rules), &[], &[], (COLUMNS, ROWS));
+    let viewer = Viewer::start_on(Emulated::with(&[(BACKGROUND, half)]), &[]);
     viewer.wait_for_look(half, &once(&VIEW, COLUMNS, PICTURE_ROWS));
     // Until the program has given up on the answer.
     thread::sleep(Duration::from_millis(700));
@@ -195,7 +182,7 @@ fn half_an_answer_is_no_key(half: &'static str) {
 }
 
 fn a_stream_is_no_key() {
-    let mut viewer = Viewer::start_in(Emulated::with(&[]), &[], &[], (COLUMNS, ROWS));
+    let mut viewer = Viewer::start_on(Emulated::with(&[]), &[]);
     viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.session.type_in("\x1b]11;");
     for _ in 0..300 {
@@ -213,15 +200,13 @@ fn colours_are_as_many_as_the_terminal_tells() {
     let depth = |rules: &[Rule], arguments: &[&str], variables: &[(&str, &str)]| {
         let arguments = [&["unit"], arguments].concat();
         let emulated = Emulated::with(rules);
-        let mut session =
-            Session::start_in(emulated, spherule(), &arguments, variables, (COLUMNS, ROWS));
+        let mut session = Session::start_in(emulated, &arguments, variables, (COLUMNS, ROWS));
         let found = session.wait_for("a picture", |output| {
             let edge = (0..COLUMNS).filter_map(|column| output.screen().cell(10, column));
             let mut colors = edge.map(vt100::Cell::fgcolor);
             colors.find(|color| *color != Color::Default)
         });
-        session.type_in("q");
-        assert!(session.wait_for_end().success());
+        session.quit("q");
         matches!(found, Color::Rgb(..))
     };
     let over_ssh = [("TERM", "xterm-256color"), ("COLORTERM", "")];
@@ -238,36 +223,26 @@ fn colours_are_as_many_as_the_terminal_tells() {
 /// Without a light, white spheres would be lost there.
 #[test]
 fn white_spheres_are_seen_on_a_white_terminal() {
-    let mut session = Session::start_in(
-        Emulated::with(&ON_WHITE),
-        spherule(),
-        &["unit", "--color", "truecolor"],
-        &[],
-        (COLUMNS, ROWS),
-    );
-    session.wait_for("the sphere", |output| {
-        let paper = |row, column| Some(output.screen().cell(row, column)?.bgcolor());
-        let (corner, middle) = (paper(0, 0)?, paper(PICTURE_ROWS / 2, COLUMNS / 2)?);
-        (corner == Color::Rgb(0, 0, 0) && middle == Color::Rgb(255, 255, 255)).then_some(())
+    let (emulated, arguments) = (Emulated::with(&ON_WHITE), ["unit", "--color", "truecolor"]);
+    let mut session = Session::start_in(emulated, &arguments, &[], (COLUMNS, ROWS));
+    session.wait_until("the sphere", |output| {
+        let middle = output.screen().cell(PICTURE_ROWS / 2, COLUMNS / 2);
+        output.corner() == Some(Color::Rgb(0, 0, 0))
+            && middle.is_some_and(|cell| cell.bgcolor() == Color::Rgb(255, 255, 255))
     });
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
+    session.quit("q");
 }
 
 /// Nothing is written on what no sphere covers.
 #[test]
 fn without_colour_the_background_is_blank_on_a_white_terminal() {
     for charset in ["ascii", "braille"] {
-        let mut session = Session::start_in(
-            Emulated::with(&ON_WHITE),
-            spherule(),
-            &["caffeine", "--charset", charset],
-            &[("NO_COLOR", "1")],
-            (COLUMNS, ROWS),
-        );
-        session.wait_for("the picture", |output| {
-            let status = last_row(output.screen());
-            (status.contains("? help") && !status.contains("drawing ...")).then_some(())
+        let (emulated, arguments) = (Emulated::with(&ON_WHITE), ["caffeine", "--charset", charset]);
+        let variables = [("NO_COLOR", "1")];
+        let mut session = Session::start_in(emulated, &arguments, &variables, (COLUMNS, ROWS));
+        session.wait_until("the picture", |output| {
+            let status = output.status();
+            status.contains("? help") && !status.contains("drawing ...")
         });
         let shown = |left, right| -> String {
             let output = session.output();
@@ -278,8 +253,7 @@ fn without_colour_the_background_is_blank_on_a_white_terminal() {
         };
         assert_eq!(shown(0, 2), "", "{charset}");
         assert_ne!(shown(0, COLUMNS), "", "{charset}");
-        session.type_in("q");
-        assert!(session.wait_for_end().success());
+        session.quit("q");
     }
 }
 
@@ -288,18 +262,11 @@ fn without_colour_the_background_is_blank_on_a_white_terminal() {
 fn the_background_is_the_terminals_where_nobody_names_one() {
     let rules = [(BACKGROUND, "\x1b]11;rgb:f0f0/e0e0/d0d0\x1b\\"), (ATTRIBUTES, "\x1b[?62c")];
     let corner = |arguments: &[&str], expected: Color| {
-        let mut session = Session::start_in(
-            Emulated::with(&rules),
-            spherule(),
-            &[arguments, &["--color", "truecolor"]].concat(),
-            &[],
-            (COLUMNS, ROWS),
-        );
-        session.wait_for("the background", |output| {
-            (output.screen().cell(0, 0)?.bgcolor() == expected).then_some(())
-        });
-        session.type_in("q");
-        assert!(session.wait_for_end().success());
+        let arguments = [arguments, &["--color", "truecolor"]].concat();
+        let emulated = Emulated::with(&rules);
+        let mut session = Session::start_in(emulated, &arguments, &[], (COLUMNS, ROWS));
+        session.wait_until("the background", |output| output.corner() == Some(expected));
+        session.quit("q");
     };
     corner(&["unit"], Color::Rgb(0xf0, 0xe0, 0xd0));
     corner(&["unit", "--background", "#102030"], Color::Rgb(0x10, 0x20, 0x30));

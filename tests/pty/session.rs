@@ -1,18 +1,17 @@
 //! A program in a pseudo-terminal of its own, and what its screen shows.
-//!
-//! Nothing here sleeps for a fixed time, except to see that nothing happens. Every wait looks until its condition
-//! holds, and a test fails if that takes longer than [`PATIENCE`].
+
+mod waits;
 
 use super::emulated::{Answers, Emulated};
 use super::modes;
-use portable_pty::{
-    Child, CommandBuilder, ExitStatus, MasterPty, PtySize, SlavePty, native_pty_system,
-};
+use super::output::Output;
+use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, SlavePty, native_pty_system};
 use rustix::fd::OwnedFd;
 use rustix::fs::{Mode, OFlags};
-use rustix::io::{Errno, ioctl_fionread};
-use rustix::process::{Pid, Signal, WaitId, WaitIdOptions, kill_process, waitid};
+use rustix::io::ioctl_fionread;
+use rustix::process::{Pid, Signal, kill_process};
 use rustix::termios::{Action, QueueSelector, Termios, tcflow, tcflush, tcgetattr};
+use spherule_tests::binary::spherule;
 use std::ffi::OsStr;
 use std::fs;
 use std::io::{Read, Write};
@@ -20,29 +19,6 @@ use std::num::NonZeroU16;
 use std::path::PathBuf;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
 use std::thread;
-use std::time::{Duration, Instant};
-
-/// Far longer than anything takes on a loaded machine.
-const PATIENCE: Duration = Duration::from_secs(60);
-/// The time between two looks at something that does not report changes.
-const GLANCE: Duration = Duration::from_millis(2);
-/// Far longer than the viewer delays anything: if nothing happens for so long, nothing will.
-const STILLNESS: Duration = Duration::from_millis(400);
-/// The test itself writes this into the terminal: all output of the program comes before it. No terminal knows this
-/// sequence, so none shows it.
-const END_MARK: &[u8] = b"\x1b]7777;all has been read\x07";
-
-/// What has come out of the terminal so far.
-pub(crate) struct Output {
-    pub(crate) terminal: vt100::Parser,
-    pub(crate) sent: Vec<u8>,
-}
-
-impl Output {
-    pub(crate) fn screen(&self) -> &vt100::Screen {
-        self.terminal.screen()
-    }
-}
 
 /// Where keys are typed and the terminal's answers go.
 pub(crate) type Keys = Arc<Mutex<Box<dyn Write + Send>>>;
@@ -96,18 +72,31 @@ pub(crate) fn command(
 }
 
 impl Session {
-    /// Starts `program` in a terminal of `columns` x `rows` that answers as a good one does.
-    pub(crate) fn start(
-        program: impl AsRef<OsStr>,
-        arguments: &[&str],
-        variables: &[(&str, &str)],
-        size: (u16, u16),
-    ) -> Self {
-        Self::start_in(Emulated::good(), program, arguments, variables, size)
+    /// Starts `spherule` in a terminal of `columns` x `rows` that answers as a good one does.
+    pub(crate) fn start(arguments: &[&str], variables: &[(&str, &str)], size: (u16, u16)) -> Self {
+        Self::start_in(Emulated::good(), arguments, variables, size)
     }
 
     /// The same in another kind of terminal, or over a link.
     pub(crate) fn start_in(
+        emulated: Emulated,
+        arguments: &[&str],
+        variables: &[(&str, &str)],
+        size: (u16, u16),
+    ) -> Self {
+        Self::start_program(emulated, spherule(), arguments, variables, size)
+    }
+
+    /// Starts a script of a shell: its `$0` is `spherule`, and its arguments are these.
+    pub(crate) fn start_script(script: &str, arguments: &[&str], size: (u16, u16)) -> Self {
+        let program = spherule();
+        let program = program.to_str().expect("a path that is text");
+        let arguments = [&["-c", script, program], arguments].concat();
+        Self::start_program(Emulated::good(), "sh", &arguments, &[], size)
+    }
+
+    /// Starts any program.
+    pub(crate) fn start_program(
         emulated: Emulated,
         program: impl AsRef<OsStr>,
         arguments: &[&str],
@@ -218,113 +207,20 @@ impl Session {
         ioctl_fionread(&self.line).expect("the terminal tells")
     }
 
-    /// Waits until `found` finds something in the output, and returns that.
-    pub(crate) fn wait_for<T>(&self, what: &str, found: impl Fn(&Output) -> Option<T>) -> T {
-        let mut result = None;
-        self.wait_until(what, &mut |output| {
-            result = found(output);
-            result.is_some()
-        });
-        result.expect("it has been waited for")
-    }
-
-    fn wait_until(&self, what: &str, is_so: &mut dyn FnMut(&Output) -> bool) {
-        let deadline = Instant::now() + PATIENCE;
-        let mut output = self.output();
-        loop {
-            if is_so(&output) {
-                return;
-            }
-            let left = deadline.saturating_duration_since(Instant::now());
-            if left.is_zero() {
-                let shown = output.screen().contents();
-                drop(output);
-                panic!("waited in vain for {what}; the screen shows:\n{shown}");
-            }
-            output = self.output.1.wait_timeout(output, left).expect("the reader lives").0;
-        }
-    }
-
-    /// Waits until the program neither sends anything nor wakes up for a while.
-    pub(crate) fn wait_for_peace(&self) {
-        self.poll("peace", || (!self.stirs()).then_some(()));
-    }
-
-    /// Whether the program sends anything or wakes up within a while.
-    pub(crate) fn stirs(&self) -> bool {
-        let signs = || (self.output().sent.len(), self.sleeps());
-        let before = signs();
-        thread::sleep(STILLNESS);
-        signs() != before
-    }
-
-    /// How often the program's threads went to sleep, which is how often they woke up. Only Linux tells.
-    fn sleeps(&self) -> u64 {
-        if !cfg!(target_os = "linux") {
-            return 0;
-        }
-        let tasks = format!("/proc/{}/task", self.pid);
-        let statuses = fs::read_dir(tasks).expect("it runs").filter_map(|task| {
-            let status = fs::read_to_string(task.expect("a thread").path().join("status"));
-            // A thread that ends meanwhile changes the sum.
-            let has_ended =
-                |error| matches!(Errno::from_io_error(error), Some(Errno::NOENT | Errno::SRCH));
-            if status.as_ref().is_err_and(has_ended) {
-                None
-            } else {
-                Some(status.expect("a status"))
-            }
-        });
-        let sleeps = statuses.map(|status| {
-            let line =
-                status.lines().find_map(|line| line.strip_prefix("voluntary_ctxt_switches:"));
-            line.and_then(|count| count.trim().parse::<u64>().ok()).expect("a count")
-        });
-        sleeps.sum()
-    }
-
     /// The name of the program's side.
     pub(crate) fn terminal_name(&self) -> PathBuf {
         self.master.tty_name().expect("it has a name")
     }
 
-    /// The names of all that the program has open; of none, except on Linux.
+    /// The names of all that the program has open.
     pub(crate) fn open_files(&self) -> Vec<PathBuf> {
-        let Ok(files) = fs::read_dir(format!("/proc/{}/fd", self.pid)) else { return Vec::new() };
+        let files = fs::read_dir(format!("/proc/{}/fd", self.pid)).expect("it runs");
         files.filter_map(|file| fs::read_link(file.ok()?.path()).ok()).collect()
     }
 
     /// The modes of the program's side now.
     pub(crate) fn modes(&self) -> Termios {
         tcgetattr(&self.line).expect("it is a terminal")
-    }
-
-    /// Waits until the program is stopped, as a shell does.
-    pub(crate) fn wait_until_stopped(&self) {
-        self.poll("a stop", || {
-            let options = WaitIdOptions::STOPPED | WaitIdOptions::NOHANG;
-            waitid(WaitId::Pid(self.pid), options).expect("it is our child")
-        });
-    }
-
-    /// Waits for the program's end, and until all that it has sent is read.
-    pub(crate) fn wait_for_end(&mut self) -> ExitStatus {
-        let status = self.wait_for_exit();
-        rustix::io::write(&self.line, END_MARK).expect("the terminal takes the mark");
-        self.wait_for("the last bytes", |output| output.sent.ends_with(END_MARK).then_some(()));
-        status
-    }
-
-    /// Waits for the program's end, but not for its output.
-    pub(crate) fn wait_for_exit(&mut self) -> ExitStatus {
-        let deadline = Instant::now() + PATIENCE;
-        loop {
-            if let Some(status) = self.child.try_wait().expect("it is our child") {
-                return status;
-            }
-            assert!(Instant::now() < deadline, "waited in vain for the end of the program");
-            thread::sleep(GLANCE);
-        }
     }
 
     /// Everything that the program has left behind.
@@ -335,17 +231,6 @@ impl Session {
             found.push("line discipline".to_owned());
         }
         found
-    }
-
-    fn poll<T>(&self, what: &str, look: impl Fn() -> Option<T>) -> T {
-        let deadline = Instant::now() + PATIENCE;
-        loop {
-            if let Some(found) = look() {
-                return found;
-            }
-            assert!(Instant::now() < deadline, "waited in vain for {what}");
-            thread::sleep(GLANCE);
-        }
     }
 }
 

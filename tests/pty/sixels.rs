@@ -2,12 +2,7 @@
 
 use super::emulated::{ATTRIBUTES, CELL_PIXELS, Emulated, STATUS};
 use super::picture::once;
-use super::session::Output;
 use super::viewer::{COLUMNS, ROWS, VIEW, Viewer};
-
-fn text(output: &Output) -> String {
-    String::from_utf8_lossy(&output.sent).into_owned()
-}
 
 /// xterm as a VT340: what is more than its registers and its largest image would be wrong, or missing.
 #[test]
@@ -19,27 +14,21 @@ fn sixels_are_as_few_as_the_terminal_shows() {
         (STATUS, "\x1b[0n"),
         (ATTRIBUTES, "\x1b[?63;1;2;4;6;9;15;22c"),
     ]);
-    let mut viewer = Viewer::start_in(emulated, &["--output", "sixel"], &[], (COLUMNS, ROWS));
-    viewer.session.wait_for("pixels", |output| {
-        text(output).contains("\x1bP0;1;0q\"1;1;640;304").then_some(())
-    });
+    let mut viewer = Viewer::start_on(emulated, &["--output", "sixel"]);
+    viewer.session.wait_for_text("\x1bP0;1;0q\"1;1;640;304");
     viewer.session.wait_for_peace();
-    let sent = text(&viewer.session.output());
+    let sent = viewer.session.output().text();
     assert!(sent.contains("#15;2;") && !sent.contains("#16;2;"));
     viewer.session.resize(COLUMNS, 30);
-    viewer.session.wait_for("a word about it", |output| {
-        output.screen().contents().contains("shows 800x400 pixels at most").then_some(())
-    });
+    viewer.session.wait_for_words("shows 800x400 pixels at most");
     viewer.session.type_in("3");
     viewer.wait_for_look("cells", &once(&VIEW, COLUMNS, 29));
-    let shown = text(&viewer.session.output()).matches("\x1bP0;1;0q").count();
+    let sent = viewer.session.output().sent.len();
     viewer.session.resize(COLUMNS, ROWS);
-    viewer.session.wait_for("pixels again", |output| {
-        (text(output).matches("\x1bP0;1;0q").count() > shown).then_some(())
-    });
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success());
-    assert_eq!(viewer.session.left_behind(), [""; 0]);
+    viewer
+        .session
+        .wait_until("pixels again", |output| output.text_after(sent).contains("\x1bP0;1;0q"));
+    viewer.quit();
 }
 
 /// `WezTerm` tells the window's size of the moment: that is no limit for a larger window.
@@ -51,14 +40,9 @@ fn a_limit_that_is_the_window_grows_with_it() {
         (STATUS, "\x1b[0n"),
         (ATTRIBUTES, "\x1b[?62;4;22c"),
     ]);
-    let mut viewer = Viewer::start_in(emulated, &["--output", "sixel"], &[], (80, 24));
-    let wait_for = |viewer: &Viewer, size: &str| {
-        let begin = format!("\x1bP0;1;0q\"1;1;{size}");
-        viewer.session.wait_for(size, |output| text(output).contains(&begin).then_some(()));
-    };
-    wait_for(&viewer, "640;368");
+    let viewer = Viewer::start_in(emulated, &["--output", "sixel"], &[], (80, 24));
+    viewer.session.wait_for_text("\x1bP0;1;0q\"1;1;640;368");
     viewer.session.resize(100, 30);
-    wait_for(&viewer, "800;464");
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success());
+    viewer.session.wait_for_text("\x1bP0;1;0q\"1;1;800;464");
+    viewer.quit();
 }

@@ -1,8 +1,8 @@
 //! The picture follows a terminal whose size changes.
 
-use super::look::{last_row, look};
+use super::look::look;
 use super::picture::once;
-use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 
 #[test]
 fn it_follows_the_size() {
@@ -41,20 +41,18 @@ fn a_key_and_a_resize_at_once_both_count() {
         let (columns, rows) = (40 + round, 8 + round % 5);
         viewer.session.resize(columns, rows);
         viewer.session.type_in(key);
-        viewer.session.wait_for("both", |output| {
-            let line = last_row(output.screen());
-            (shows_a_frame(output) && line.contains(tier)).then_some(())
-        });
+        viewer
+            .session
+            .wait_until("both", |output| output.shows_a_frame() && output.status().contains(tier));
     }
     viewer.session.resize(COLUMNS, ROWS);
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success());
+    viewer.quit();
 }
 
 #[test]
 fn a_terminal_without_a_cell_is_waited_for() {
     let viewer = Viewer::start_at_size(0, 7);
-    viewer.session.wait_for("the start", |output| output.screen().hide_cursor().then_some(()));
+    viewer.session.wait_until("the start", |output| output.screen().hide_cursor());
     viewer.session.resize(COLUMNS, ROWS);
     viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
     viewer.session.resize(1, 1);
@@ -71,10 +69,10 @@ fn a_terminal_of_unknown_size_is_drawn_on() {
         viewer.wait_for_picture("the told size", &once(&VIEW, 100, 29));
         viewer.session.forget_size();
         let expected = once(&VIEW, columns, rows - 1);
-        viewer.session.wait_for("a picture of the size that is supposed", |output| {
+        viewer.session.wait_until("a picture of the size that is supposed", |output| {
             let shown = look(output.screen(), rows - 1);
             let shown = shown.iter().map(|row| &row[..usize::from(columns)]);
-            shown.eq(expected.iter().map(Vec::as_slice)).then_some(())
+            shown.eq(expected.iter().map(Vec::as_slice))
         });
         viewer.session.resize(COLUMNS, ROWS);
         viewer.wait_for_picture("the told size", &once(&VIEW, COLUMNS, PICTURE_ROWS));

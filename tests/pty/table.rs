@@ -1,14 +1,14 @@
 //! The table of `t`: measured while keys still move the picture, and closed at once.
 
-use super::look::last_row;
-use super::picture::{OPTIONS, once_with};
-use super::session::{Output, Session};
-use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer, shows_a_frame};
+use super::file::TestFile;
+use super::look::look;
+use super::output::Output;
+use super::picture::once_with;
+use super::session::Session;
+use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 use spherule::view::orbited;
 use spherule::viewer::ORBIT_STEP;
-use spherule_tests::binary::spherule;
 use std::fmt::Write;
-use std::fs;
 use std::time::{Duration, Instant};
 
 /// So many samples that measuring the rays takes seconds; and how many rays there are at [`COLUMNS`] x
@@ -19,24 +19,18 @@ const RAYS: &str = " 109,440 camera rays";
 const AT_ONCE: Duration = Duration::from_millis(500);
 
 fn start() -> Viewer {
-    let viewer = Viewer::start_as(&MANY, &[], COLUMNS, ROWS);
+    let viewer = Viewer::start_as(&MANY);
     viewer.wait_for_frame();
     viewer
 }
 
-fn contents(output: &Output) -> String {
-    output.screen().contents()
-}
-
 /// Waits until `words` stand over the picture.
 fn wait_for_words(session: &Session, words: &str) {
-    session.wait_for(words, |output| {
-        (shows_a_frame(output) && contents(output).contains(words)).then_some(())
-    });
+    session.wait_until(words, |output| output.shows_a_frame() && output.contents().contains(words));
 }
 
 fn percent(output: &Output) -> Option<u32> {
-    let contents = contents(output);
+    let contents = output.contents();
     let (before, _) = contents.split_once(" %  Esc stops")?;
     before.split_whitespace().next_back()?.parse().ok()
 }
@@ -51,21 +45,20 @@ fn t_measures_shows_and_escape_closes() {
     wait_for_words(&viewer.session, "2^24");
     {
         let output = viewer.session.output();
-        let text = contents(&output);
+        let text = output.contents();
         for part in ["3 spheres", "1 thread", RAYS, " shadow rays", "ns a ray"] {
             assert!(text.contains(part), "{part}: {text}");
         }
         // The picture is above the table.
         let above = usize::from(PICTURE_ROWS) - 13;
         let picture = once_with(&MANY, &VIEW, COLUMNS, PICTURE_ROWS);
-        assert_eq!(super::look::look(output.screen(), above as u16), picture[..above]);
+        assert_eq!(look(output.screen(), above as u16), picture[..above]);
     }
     // The results stay until the user asks for something that they do not apply to.
     viewer.session.wait_for_peace();
     viewer.session.type_in("1");
-    viewer.session.wait_for("another tier", |output| {
-        (last_row(output.screen()).contains(" fast ") && contents(output).contains("2^24"))
-            .then_some(())
+    viewer.session.wait_until("another tier", |output| {
+        output.status().contains(" fast ") && output.contents().contains("2^24")
     });
     viewer.session.type_in("3\x1b");
     viewer
@@ -98,10 +91,8 @@ fn q_leaves_at_once_while_it_measures() {
     viewer.session.type_in("t");
     wait_for_words(&viewer.session, "measuring");
     let asked = Instant::now();
-    viewer.session.type_in("q");
-    assert!(viewer.session.wait_for_end().success());
+    viewer.quit();
     assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
-    assert_eq!(viewer.session.left_behind(), [""; 0]);
 }
 
 /// The table applies to the picture that is seen: another picture is measured anew when it rests.
@@ -141,20 +132,18 @@ fn a_picture_that_spins_is_waited_for() {
 fn without_colour_it_is_ascii() {
     let options = ["--color", "never", "--charset", "ascii", "--show", "table"];
     let mut viewer = Viewer::start_with_options(&options);
-    viewer.session.wait_for("the first frame", |output| shows_a_frame(output).then_some(()));
+    viewer.wait_for_frame();
     viewer.session.type_in("e");
     wait_for_words(&viewer.session, "2^24");
     {
         let output = viewer.session.output();
-        assert!(contents(&output).is_ascii());
-        assert!(!output.sent.windows(4).any(|bytes| bytes == b"\x1b[38" || bytes == b"\x1b[48"));
+        assert!(output.contents().is_ascii() && !output.has_colors());
         assert!(!output.sent.windows(3).any(|bytes| bytes == b"\x1b[3" && bytes[2] != b'8'));
     }
     viewer.session.type_in("\x1b");
-    viewer.session.wait_for("the map under it", |output| {
-        let text = contents(output);
-        (shows_a_frame(output) && text.contains(" exact: all right") && !text.contains("2^24"))
-            .then_some(())
+    viewer.session.wait_until("the map under it", |output| {
+        let text = output.contents();
+        output.shows_a_frame() && text.contains(" exact: all right") && !text.contains("2^24")
     });
     viewer.quit();
 }
@@ -162,30 +151,23 @@ fn without_colour_it_is_ascii() {
 /// Keys are answered at once, however many spheres there are.
 #[test]
 fn a_hundred_thousand_spheres_do_not_hold_up_escape() {
-    let path = std::env::temp_dir().join(format!("spherule-{}-many.xyz", std::process::id()));
     let mut text = "100000\nmany\n".to_owned();
     for index in 0..100_000_u32 {
         let at = |step: u32| (index.wrapping_mul(step) >> 8) % 1000;
         let (x, y, z) = (at(2_654_435_761), at(2_246_822_519), at(3_266_489_917));
         writeln!(text, "C {x} {y} {z}").expect("memory");
     }
-    fs::write(&path, text).expect("a temporary file");
-    let name = path.to_str().expect("a path that is text");
-    let arguments = [&[name], OPTIONS.as_slice()].concat();
-    let mut session = Session::start(spherule(), &arguments, &[], (COLUMNS, ROWS));
-    session.wait_for("a frame", |output| shows_a_frame(output).then_some(()));
-    fs::remove_file(&path).expect("it can be removed");
+    let mut viewer = Viewer::start_with_file(TestFile::new("xyz", text), &[]);
+    viewer.wait_for_frame();
     for _ in 0..3 {
-        session.type_in("t");
-        wait_for_words(&session, "Esc stops");
+        viewer.session.type_in("t");
+        wait_for_words(&viewer.session, "Esc stops");
         let asked = Instant::now();
-        session.type_in("\x1b");
-        session.wait_for("the picture", |output| {
-            (shows_a_frame(output) && !contents(output).contains("Esc stops")).then_some(())
+        viewer.session.type_in("\x1b");
+        viewer.session.wait_until("the picture", |output| {
+            output.shows_a_frame() && !output.contents().contains("Esc stops")
         });
         assert!(asked.elapsed() < AT_ONCE, "{:?}", asked.elapsed());
     }
-    session.type_in("q");
-    assert!(session.wait_for_end().success());
-    assert_eq!(session.left_behind(), [""; 0]);
+    viewer.quit();
 }

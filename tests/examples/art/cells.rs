@@ -4,7 +4,7 @@ use super::chafa::output;
 use super::image::write_png;
 use spherule_tests::art::font::Font;
 use spherule_tests::art::light::Light;
-use spherule_tests::art::palette::sixteen;
+use spherule_tests::art::palette::xterm;
 use spherule_tests::art::screen::Screen;
 use spherule_tests::binary::spherule;
 use std::error::Error;
@@ -28,8 +28,7 @@ pub(crate) fn write() -> Result<(), Box<dyn Error>> {
             let mut program = Command::new(spherule());
             program.args(["--color", "truecolor", "--size", &format!("{columns}x{rows}")]);
             let bytes = output(program.args(options.split_whitespace()))?;
-            let theme = sixteen("xterm").ok_or("no such palette")?;
-            let screen = Screen::read(&bytes, columns, rows, &theme)?;
+            let screen = Screen::read(&bytes, columns, rows, &xterm())?;
             let light = Light::of_screen(&screen, Font::Unifont)?;
             all.width = light.width;
             all.pixels.extend(light.pixels);

@@ -12,7 +12,6 @@
 //! Earlier results are kept under `target/art`; nothing there is needed.
 #![forbid(unsafe_code)]
 
-mod aims;
 mod cache;
 mod cells;
 mod chafa;

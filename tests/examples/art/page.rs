@@ -1,9 +1,8 @@
 //! The page.
 
-use super::aims::Reached;
 use super::modes::{SCENES, SIZE};
 use super::motion::{FRAMES, STEP};
-use super::row::Row;
+use super::row::{Reached, Row};
 use spherule_tests::art::figures::Figures;
 use std::fmt::Write;
 

@@ -1,9 +1,9 @@
-//! A line of a table: a mode in a font.
+//! A line of a table: a mode in a font, and which aims it reaches.
 
-use super::aims::Reached;
 use super::modes::Mode;
 use super::motion::Unrest;
 use super::still::Score;
+use spherule_tests::art::figures::Figures;
 use spherule_tests::art::font::Font;
 
 pub(crate) struct Row {
@@ -25,7 +25,14 @@ impl Row {
     }
 
     pub(crate) fn reached(&self, scene: usize, score: &Score) -> Reached {
-        Reached::new(&self.mode, self.least(scene), score)
+        let (Score { ours, chafa }, mode) = (score, &self.mode);
+        let beats = |is_no_worse: &dyn Fn(&Figures) -> bool| chafa.as_ref().is_none_or(is_no_worse);
+        let above_floor = self.least(scene).is_none_or(|least| ours.far >= least);
+        Reached {
+            flip: beats(&|chafa| ours.flip <= mode.most_flip * chafa.flip),
+            ssim: !mode.has_colors() || beats(&|chafa| ours.ssim >= chafa.ssim),
+            far: above_floor && beats(&|chafa| ours.far > chafa.far),
+        }
     }
 
     /// The floor from across the room, in Unifont, where it was measured.
@@ -37,6 +44,20 @@ impl Row {
     pub(crate) fn is_calm(&self, unrest: &Unrest) -> bool {
         let most = self.mode.most_unrest;
         unrest.chafa.is_none_or(|chafa| unrest.ours.seen <= most * chafa.seen)
+    }
+}
+
+/// Which aims a mode reaches in a scene and font.
+pub(crate) struct Reached {
+    pub(crate) flip: bool,
+    pub(crate) ssim: bool,
+    pub(crate) far: bool,
+}
+
+impl Reached {
+    /// A star if an aim is missed.
+    pub(crate) fn mark(is_reached: bool) -> &'static str {
+        if is_reached { "" } else { " *" }
     }
 }
 

@@ -8,7 +8,7 @@ use super::subject::Subject;
 use spherule_tests::art::figures::{Figures, Truth};
 use spherule_tests::art::font::Font;
 use spherule_tests::art::light::Light;
-use spherule_tests::art::palette::{Rgb, sixteen};
+use spherule_tests::art::palette::{Rgb, xterm};
 use spherule_tests::art::screen::Screen;
 use std::error::Error;
 use std::path::Path;
@@ -96,8 +96,7 @@ impl<'a> Judge<'a> {
 /// What a terminal with xterm's colours and this font shows.
 pub(crate) fn shown(bytes: &[u8], font: Font) -> Result<Light, Box<dyn Error>> {
     let (columns, rows) = super::modes::SIZE;
-    let palette = sixteen("xterm").ok_or("no such palette")?;
-    Ok(Light::of_screen(&Screen::read(bytes, columns, rows, &palette)?, font)?)
+    Ok(Light::of_screen(&Screen::read(bytes, columns, rows, &xterm())?, font)?)
 }
 
 /// The best of each figure.

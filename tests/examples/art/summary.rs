@@ -1,8 +1,7 @@
 //! A summary for developers of the program: ours beside chafa's, a line a mode.
 
-use super::aims::Reached;
 use super::motion::Unrest;
-use super::row::Row;
+use super::row::{Reached, Row};
 use super::still::Score;
 use spherule_tests::art::figures::Figures;
 use std::fmt::Write;
@@ -51,10 +50,7 @@ fn less(
 pub(crate) fn summary(rows: &[Row], scenes: &[&str]) -> String {
     let mut text = String::new();
     for (head, show, is_reached) in TABLES {
-        let _ = write!(text, "\n{head}\n{:24}", "");
-        for scene in scenes {
-            let _ = write!(text, "{scene:18}");
-        }
+        text += &heading(head, scenes);
         let _ = writeln!(text);
         for row in rows {
             let _ = write!(text, "{:24}", row.name());
@@ -78,13 +74,16 @@ pub(crate) fn summary(rows: &[Row], scenes: &[&str]) -> String {
     text
 }
 
+/// What a table is of, and the names of its columns.
+fn heading(what: &str, scenes: &[&str]) -> String {
+    let columns: String = scenes.iter().map(|scene| format!("{scene:18}")).collect();
+    format!("\n{what}\n{:24}{columns}", "")
+}
+
 /// Ours as a share of chafa's: as seen, and pixel by pixel.
 fn motion(rows: &[Row], scenes: &[&str]) -> String {
-    let mut text =
-        format!("\nerror of changes in motion, ours by chafa's: seen, pixels\n{:24}", "");
-    for scene in scenes {
-        let _ = write!(text, "{scene:18}");
-    }
+    let what = "error of changes in motion, ours by chafa's: seen, pixels";
+    let mut text = heading(what, scenes);
     for row in rows {
         let _ = write!(text, "\n{:24}", row.name());
         for (_, unrest) in &row.unrest {

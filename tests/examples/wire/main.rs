@@ -17,7 +17,7 @@ use spherule_kernel::Level;
 use spherule_tests::art::figures::oklab;
 use spherule_tests::art::font::Font;
 use spherule_tests::art::light::Light;
-use spherule_tests::art::palette::sixteen;
+use spherule_tests::art::palette::xterm;
 use spherule_tests::art::screen::Screen;
 use std::error::Error;
 use std::time::Instant;
@@ -108,8 +108,7 @@ fn cost(grids: &[CellGrid], tolerance: f32) -> Result<Cost, Box<dyn Error>> {
 fn pixels(grid: &CellGrid) -> Result<Vec<[f32; 3]>, Box<dyn Error>> {
     let mut bytes = Vec::new();
     encode::full(grid, &mut bytes);
-    let palette = sixteen("xterm").ok_or("no such palette")?;
-    let screen = Screen::read(&bytes, SIZE.0, SIZE.1, &palette)?;
+    let screen = Screen::read(&bytes, SIZE.0, SIZE.1, &xterm())?;
     Ok(oklab(&Light::of_screen(&screen, Font::Unifont)?))
 }
 

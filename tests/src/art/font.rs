@@ -44,17 +44,6 @@ impl Font {
         }
     }
 
-    /// The name of the font.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Unifont => "GNU Unifont",
-            Self::DejaVuSansMono => "DejaVu Sans Mono",
-            Self::Spleen => "Spleen",
-            Self::NotoSansMono => "Noto Sans Mono",
-        }
-    }
-
     /// What the font's glyph covers; `None` if the font has no glyph. Dots of braille are always Unifont's.
     #[must_use]
     pub fn coverage(self, character: char) -> Option<Coverage> {

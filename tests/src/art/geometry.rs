@@ -42,7 +42,11 @@ pub fn coverage(character: char) -> Option<Coverage> {
             let start = eighths(place('\u{1fb76}') + 1);
             rectangles(&[[0.0, start, 1.0, start + 0.125]])
         }
-        '\u{1fb3c}'..='\u{1fb67}' => diagonal(DIAGONALS[place('\u{1fb3c}') as usize]),
+        '\u{1fb3c}'..='\u{1fb51}' => diagonal(DIAGONALS[place('\u{1fb3c}') as usize]),
+        // The same edges, and the other side filled.
+        '\u{1fb52}'..='\u{1fb67}' => {
+            diagonal(DIAGONALS[place('\u{1fb52}') as usize]).map(|share| 1.0 - share)
+        }
         '\u{1fb68}'..='\u{1fb6b}' => quarters(place('\u{1fb68}')).map(|share| 1.0 - share),
         '\u{1fb6c}'..='\u{1fb6f}' => quarters(place('\u{1fb6c}')),
         '\u{1fb82}'..='\u{1fb86}' => upper(others('\u{1fb82}')),
@@ -108,8 +112,8 @@ fn mosaic(bits: u8, rows: u8) -> Coverage {
 /// A place on the border: halves of the width, thirds of the height.
 type Place = [u8; 2];
 
-/// For each diagonal where its edge starts and ends, and a corner that is filled, as the names from U+1FB3C on say.
-const DIAGONALS: [(Place, Place, Place); 44] = [
+/// For each diagonal from U+1FB3C on where its edge starts and ends, and a corner that is filled, as the names say.
+const DIAGONALS: [(Place, Place, Place); 22] = [
     ([0, 2], [1, 3], [0, 3]),
     ([0, 2], [2, 3], [0, 3]),
     ([0, 1], [1, 3], [0, 3]),
@@ -132,28 +136,6 @@ const DIAGONALS: [(Place, Place, Place); 44] = [
     ([0, 0], [2, 2], [0, 3]),
     ([1, 0], [2, 3], [0, 3]),
     ([0, 1], [2, 2], [0, 3]),
-    ([0, 2], [1, 3], [2, 0]),
-    ([0, 2], [2, 3], [2, 0]),
-    ([0, 1], [1, 3], [2, 0]),
-    ([0, 1], [2, 3], [2, 0]),
-    ([0, 0], [1, 3], [2, 0]),
-    ([0, 1], [1, 0], [0, 0]),
-    ([0, 1], [2, 0], [0, 0]),
-    ([0, 2], [1, 0], [0, 0]),
-    ([0, 2], [2, 0], [0, 0]),
-    ([0, 3], [1, 0], [0, 0]),
-    ([0, 2], [2, 1], [0, 0]),
-    ([1, 3], [2, 2], [0, 0]),
-    ([0, 3], [2, 2], [0, 0]),
-    ([1, 3], [2, 1], [0, 0]),
-    ([0, 3], [2, 1], [0, 0]),
-    ([1, 3], [2, 0], [0, 0]),
-    ([1, 0], [2, 1], [2, 0]),
-    ([0, 0], [2, 1], [2, 0]),
-    ([1, 0], [2, 2], [2, 0]),
-    ([0, 0], [2, 2], [2, 0]),
-    ([1, 0], [2, 3], [2, 0]),
-    ([0, 1], [2, 2], [2, 0]),
 ];
 
 /// How many points of a pixel, side by side, an area is sampled at.

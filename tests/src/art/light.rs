@@ -43,7 +43,7 @@ impl Light {
                     let glyph = shown.glyph;
                     let coverage = geometry::coverage(glyph)
                         .or_else(|| font.coverage(glyph))
-                        .ok_or_else(|| format!("{} has no {glyph:?}", font.name()))?;
+                        .ok_or_else(|| format!("{} has no {glyph:?}", font.word()))?;
                     known.entry(glyph).or_insert(coverage)
                 }
             };

@@ -17,6 +17,15 @@ pub fn sixteen(name: &str) -> Option<Sixteen> {
     colors.ok()?.try_into().ok()
 }
 
+/// The 16 colours of xterm.
+///
+/// # Panics
+/// Never: the theme is known here.
+#[must_use]
+pub fn xterm() -> Sixteen {
+    sixteen("xterm").expect("a known theme")
+}
+
 /// By their sources: the defaults of xterm and of the VGA's text mode, GNOME's Tango, Ethan Schoonover's Solarized.
 const THEMES: [(&str, &str); 4] = [
     (

@@ -1,12 +1,10 @@
-//! `--cast`: a recording that plays, or none; and the options that say where the eye is.
+//! `--cast`: a recording that plays, or none.
 
-use crate::run::{folder, printed, refusal, run, spherule};
+use crate::run::{by_script, failure, folder, names, prints, run};
 use serde_json::Value;
-use std::fs;
-use std::process::Command;
 
 fn cast(words: &str) -> Vec<Value> {
-    let text = printed(&run(words.split(' ').chain(["--cast", "-"])));
+    let text = prints(&format!("{words} --cast -"));
     text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect()
 }
 
@@ -55,57 +53,30 @@ fn frames_are_views_of_the_orbit() {
 
 #[test]
 fn without_a_tolerance_there_are_more_bytes() {
-    let size = |words: &str| printed(&run(words.split(' ').chain(["--cast", "-"]))).len();
-    let words = "marbles --size 60x20 --frames 20";
-    let (lossy, exact) = (size(words), size(&format!("{words} --lossless")));
+    let size =
+        |more: &str| prints(&format!("marbles --size 60x20 --frames 20 --cast - {more}")).len();
+    let [lossy, exact] = ["", "--lossless"].map(size);
     assert!(4 * lossy < 3 * exact, "{lossy} and {exact} bytes");
 }
 
 #[test]
 fn one_that_cannot_be_written_is_a_line_and_no_file() {
-    let failure = |file: &str| {
-        let output = run(["unit", "--frames", "2", "--cast", file]);
-        assert_eq!((output.status.code(), &*output.stdout), (Some(1), b"".as_slice()));
-        String::from_utf8(output.stderr).expect("UTF-8")
-    };
-    assert_eq!(failure("no/such/a.cast"), "spherule: no/such/a.cast: no such file or directory\n");
+    let fails = |file: &str| failure(&run(["unit", "--frames", "2", "--cast", file]));
+    assert_eq!(fails("no/such/a.cast"), "no/such/a.cast: no such file or directory");
     if std::path::Path::new("/dev/full").exists() {
-        assert_eq!(failure("/dev/full"), "spherule: /dev/full: no space left on device\n");
+        assert_eq!(fails("/dev/full"), "/dev/full: no space left on device");
     }
     let folder = folder("cast-full");
     let file = folder.join("a.cast");
     let recorded = |limit: u32| {
-        let script = format!("trap '' XFSZ; ulimit -f {limit}; exec \"$0\" \"$@\"");
-        let mut command = Command::new("sh");
-        command.args(["-c", &script]).arg(spherule().get_program());
+        let mut command =
+            by_script(&format!("trap '' XFSZ; ulimit -f {limit}; exec \"$0\" \"$@\""));
         command.args(["marbles", "--size", "40x12", "--frames", "20", "--cast"]).arg(&file);
         command.output().expect("a shell")
     };
-    let output = recorded(8);
-    let stderr = String::from_utf8(output.stderr).expect("UTF-8");
-    assert_eq!(output.status.code(), Some(1), "{stderr}");
-    assert!(
-        stderr.ends_with("a.cast: file too large\n") && stderr.lines().count() == 1,
-        "{stderr}"
-    );
-    assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 0);
+    let found = failure(&recorded(8));
+    assert!(found.ends_with("a.cast: file too large"), "{found}");
+    assert_eq!(names(&folder), [""; 0]);
     // The control.
     assert!(recorded(1 << 20).status.success() && file.is_file());
-}
-
-#[test]
-fn the_eye_is_where_options_say() {
-    let picture = |words: &str| {
-        let words = format!("unit --size 40x20 {words}");
-        printed(&run(words.trim().split(' ')))
-    };
-    let seen = picture("--eye 0,0,5 --target 0,0,0 --fov 40");
-    assert!(seen.contains('@') || seen.trim() != "", "{seen}");
-    // A sphere looks the same from everywhere without lights.
-    assert_eq!(picture("--eye 5,0,0 --target 0,0,0 --fov 40"), seen);
-    assert_eq!(picture("--eye 0,0,5 --target 0,0,0 --fov 40 --orbit 90,0"), seen);
-    assert_ne!(picture("--eye 0,0,9 --target 0,0,0 --fov 40"), seen);
-    assert_ne!(picture("--eye 0,0,5 --target 1,0,0 --fov 40"), seen);
-    assert_ne!(picture("--eye 0,0,5 --target 0,0,0 --fov 20"), seen);
-    assert!(refusal(&run(["unit", "--eye", "1,2"])).contains("X,Y,Z"));
 }

@@ -1,15 +1,9 @@
 //! What tells spheres of a crowd apart: what is off changes nothing, what is on does, at every size and distance.
 
-use crate::run::{file, printed, refusal, run};
-use std::ffi::OsStr;
-
-fn words(arguments: &str) -> Vec<&str> {
-    arguments.split_whitespace().collect()
-}
+use crate::run::{file, prints};
 
 fn picture(scene: &str, options: &str) -> String {
-    let arguments = format!("{scene} --once --size 60x20 --color truecolor {options}");
-    printed(&run(words(&arguments)))
+    prints(&format!("{scene} --once --size 60x20 --color truecolor {options}"))
 }
 
 #[test]
@@ -29,23 +23,6 @@ fn what_is_off_changes_no_byte_and_each_that_is_on_does() {
     }
 }
 
-#[test]
-fn threads_levels_orders_and_structures_do_not_show() {
-    let all = "--occlusion --edges --depth-cue";
-    let usual = picture("flake", all);
-    for option in [
-        "--threads 1",
-        "--threads 5",
-        "--level baseline",
-        "--order object",
-        "--structure brute",
-        "--structure depth-list",
-        "--structure bvh",
-    ] {
-        assert!(picture("flake", &format!("{all} {option}")) == usual, "{option}");
-    }
-}
-
 /// A heap of spheres, `scale` times as large, or `away` times its size away from zero.
 fn heap(scale: f64, away: f64) -> String {
     let mut text = "light = \"camera\"\n".to_owned();
@@ -61,8 +38,7 @@ fn heap(scale: f64, away: f64) -> String {
 #[test]
 fn a_scene_has_no_size_and_no_place() {
     let draw = |name: &str, scale: f64, away: f64| {
-        let path = file(name, heap(scale, away).as_bytes());
-        picture(path.to_str().expect("UTF-8"), "--occlusion --edges --depth-cue")
+        picture(&file(name, heap(scale, away)), "--occlusion --edges --depth-cue")
     };
     let usual = draw("crowd.toml", 1.0, 0.0);
     // Powers of two round no number in another way.
@@ -73,58 +49,6 @@ fn a_scene_has_no_size_and_no_place() {
     let far = draw("crowd-far.toml", 1.0, 65_536.0);
     let blanks = |picture: &str| picture.matches(' ').count();
     assert!(blanks(&far).abs_diff(blanks(&usual)) < 60, "{} and {}", blanks(&far), blanks(&usual));
-}
-
-#[test]
-fn a_picture_in_pixels_has_them_too() {
-    let folder = env!("CARGO_TARGET_TMPDIR");
-    let png = |name: &str, options: &str| {
-        let path = format!("{folder}/{name}");
-        printed(&run(words(&format!("flake --size 20x8 --png {path} {options}"))));
-        std::fs::read(path).expect("a picture")
-    };
-    let usual = png("crowd-0.png", "");
-    assert!(png("crowd-1.png", "--occlusion=off --edges=off") == usual);
-    let others =
-        ["--occlusion", "--edges", "--depth-cue"].map(|options| png("crowd-2.png", options));
-    assert!(
-        others.iter().all(|other| *other != usual)
-            && others[0] != others[1]
-            && others[1] != others[2]
-    );
-}
-
-#[test]
-fn what_a_scene_does_not_have_is_refused() {
-    let error = |options: &str| refusal(&run(words(&format!("marbles --once {options}"))));
-    assert_eq!(
-        error("--color-by chain"),
-        "marbles: no chain in this scene to colour by; it has scene"
-    );
-    assert_eq!(
-        error("--radius covalent"),
-        "marbles: no elements in this scene, by which there were radii"
-    );
-    assert!(error("--radius mass").contains("no mass in this scene"));
-    assert!(error("--radius -1").contains("not negative"));
-    assert!(error("--color-by chain --range 1").contains("LOW:HIGH"));
-    assert!(error("--range 1:2").contains("--color-by"));
-    assert!(error("--edges=maybe").contains("maybe"));
-    let names = refusal(&run(words("caffeine --once --color-by element --range 1:2")));
-    assert_eq!(names, "--range: for numbers; colours are by element");
-    let path = file("crowd-words.csv", b"x,y,z,r,name,q\n0,0,0,1,a,1\n2,0,0,1,b,2\n");
-    let options = ["--once", "--color-by", "name"].map(OsStr::new);
-    let words = refusal(&run([path.as_os_str()].into_iter().chain(options)));
-    let what = "column name has no number to colour by; there are scene, q";
-    assert!(words.ends_with(what), "{words}");
-}
-
-#[test]
-fn radii_are_as_asked_for() {
-    let usual = picture("caffeine", "");
-    assert!(picture("caffeine", "--radius vdw") == usual);
-    assert!(picture("caffeine", "--radius covalent") != usual);
-    assert!(picture("caffeine", "--radius 0.3") != picture("caffeine", "--radius 0.6"));
 }
 
 #[test]
@@ -139,10 +63,6 @@ fn a_legend_says_what_colours_mean() {
         .collect();
     assert_eq!(rows, [Some(1), Some(2), Some(3), Some(4)]);
     assert!(!picture("caffeine", "--color-by element").contains(" element "));
-    for none in ["--output sixel", "--show error", "--cast -"] {
-        let words = format!("caffeine --once --legend {none}");
-        assert!(refusal(&run(words.split_whitespace())).contains("--legend"), "{none}");
-    }
 }
 
 /// A colour means one number in all frames: the scale of the first widens where others exceed it, and never narrows. So
@@ -152,11 +72,9 @@ fn every_frame_has_its_legend() {
     let frames = "1\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 1\n".to_owned()
         + "2\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 5\nC 2 0 0 7\n"
         + "1\nProperties=species:S:1:pos:R:3:q:R:1\nC 0 0 0 3\n";
-    let path = file("legends.xyz", frames.as_bytes());
+    let path = file("legends.xyz", frames);
     let words = "--size 40x10 --frames 0..3 --color-by q --legend --color 16 --charset ascii";
-    let printed = printed(&run([path.as_os_str()]
-        .into_iter()
-        .chain(words.split_whitespace().map(AsRef::as_ref))));
+    let printed = prints(&format!("{path} {words}"));
     let lines: Vec<_> = printed.lines().collect();
     assert_eq!(lines.len(), 30);
     let ends = [["1", "1"], ["1", "7"], ["1", "7"]];
@@ -180,7 +98,7 @@ fn chains_are_told_apart_unless_somebody_says_otherwise() {
             ) + "  1.00  0.00           C\n"
         };
         let text: String = (1..).zip(&chains).map(atom).collect();
-        file(name, text.as_bytes()).display().to_string()
+        file(name, text)
     };
     let (one, two) = (pdb("one-chain.pdb", ['A', 'A']), pdb("two-chains.pdb", ['A', 'B']));
     let none = pdb("no-chain.pdb", [' ', ' ']);

@@ -1,7 +1,7 @@
 //! A scene on a map, millions of its own sizes from zero, looks as it does near zero: files have double precision, the
 //! kernel single.
 
-use crate::run::{printed, run_with_input};
+use crate::run::{self, printed, run_with_input};
 use spherule_referee::random::Random;
 
 /// On a map in metres, and farther away; all are numbers of single precision.
@@ -48,13 +48,10 @@ fn dump(place: [f64; 3]) -> Vec<u8> {
 }
 
 fn npy(place: [f64; 3]) -> Vec<u8> {
-    let mut head = "{'descr': '<f8', 'fortran_order': False, 'shape': (61, 4), }".to_owned();
-    head += &" ".repeat(118 - 1 - head.len());
-    head.push('\n');
-    let mut bytes = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
-    bytes.extend(head.bytes());
-    bytes.extend(moved(place).as_flattened().iter().flat_map(|number| number.to_le_bytes()));
-    bytes
+    let head = "{'descr': '<f8', 'fortran_order': False, 'shape': (61, 4), }\n";
+    let spheres = moved(place);
+    let bytes = spheres.as_flattened().iter().flat_map(|number| number.to_le_bytes());
+    run::npy(head, &bytes.collect::<Vec<u8>>())
 }
 
 fn ply(place: [f64; 3]) -> Vec<u8> {
@@ -95,7 +92,7 @@ fn a_file_that_is_far_from_zero_is_drawn_as_near_zero() {
     ];
     for (format, written) in formats {
         let words = format!("- --size 40x14 --charset block --color truecolor --format {format}");
-        let picture = |place| printed(&run_with_input(&words, &written(place)));
+        let picture = |place| printed(run_with_input(&words, &written(place)));
         let usual = picture([0.0; 3]);
         assert!(usual.chars().filter(|glyph| !glyph.is_whitespace()).count() > 100, "{usual}");
         for place in PLACES {
@@ -111,7 +108,7 @@ fn the_eye_is_where_the_file_has_it() {
             |x: f64, y: f64, z: f64| format!("{},{},{}", x + place[0], y + place[1], z + place[2]);
         let words =
             format!("- --size 40x14 --eye {} --target {}", at(2.0, 1.0, 4.5), at(0.25, 0.0, 0.0));
-        printed(&run_with_input(&words, &table(place)))
+        printed(run_with_input(&words, &table(place)))
     };
     let usual = picture([0.0; 3]);
     assert!(usual.chars().filter(|glyph| !glyph.is_whitespace()).count() > 100, "{usual}");
@@ -121,7 +118,7 @@ fn the_eye_is_where_the_file_has_it() {
 #[test]
 fn a_pick_says_where_its_zero_is() {
     let pick = |place, words: &str| {
-        printed(&run_with_input(&format!("- --size 40x14 --pick 20,7{words}"), &table(place)))
+        printed(run_with_input(&format!("- --size 40x14 --pick 20,7{words}"), &table(place)))
     };
     let [near, far] = [[0.0; 3], PLACES[0]].map(|place| pick(place, ""));
     assert_eq!(

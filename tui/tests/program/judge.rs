@@ -1,73 +1,63 @@
 //! `spherule cases` and `spherule judge`: what one writes the other judges, and what both refuse.
 
-use crate::run::{array, file, npy, printed, refusal, run, run_with_input};
+use crate::run::{
+    array, failure, file, folder, names, npy, printed, prints, refusal, refuses, run,
+    run_with_input,
+};
 use serde_json::Value;
 use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};
 use spherule_referee::ulp::ulp_between;
-use std::ffi::OsString;
 use std::fs;
-use std::path::PathBuf;
 
 /// The data of a `.npy` file.
-fn data(path: &PathBuf) -> Vec<u8> {
+fn data(path: &str) -> Vec<u8> {
     let bytes = fs::read(path).expect("a file");
     let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
     assert_eq!(start % 64, 0);
     bytes[start..].to_vec()
 }
 
-fn floats(bytes: &[u8]) -> Vec<f32> {
-    bytes.as_chunks().0.iter().map(|&x| f32::from_le_bytes(x)).collect()
+fn floats(path: &str) -> Vec<f32> {
+    data(path).as_chunks().0.iter().map(|&x| f32::from_le_bytes(x)).collect()
 }
 
-fn words(line: &str) -> Vec<OsString> {
-    line.split_whitespace().map(Into::into).collect()
+/// A file of one column.
+fn column(dtype: &str, rows: usize, data: &[u8]) -> Vec<u8> {
+    let header = format!("{{'descr': '{dtype}', 'fortran_order': False, 'shape': ({rows},), }}\n");
+    npy(&header, data)
 }
 
 /// Spheres, rays, families, and where the answers go.
+#[derive(Clone)]
 struct Files {
-    spheres: PathBuf,
-    rays: PathBuf,
-    family: PathBuf,
-    t: PathBuf,
-    id: PathBuf,
+    spheres: String,
+    rays: String,
+    family: String,
+    t: String,
+    id: String,
 }
 
 impl Files {
     /// Cases of all families, and what a tier answers.
-    fn new(name: &str, line: &str, tier: &str) -> Self {
-        let [spheres, rays, family, t, id] =
-            ["s", "r", "f", "t", "i"].map(|part| file(&format!("judge-{name}.{part}.npy"), b""));
-        let mut cases = words(&format!("cases {line}"));
-        cases.extend(["--out-spheres".into(), spheres.clone().into()]);
-        cases.extend(["--out-rays".into(), rays.clone().into()]);
-        cases.extend(["--out-family".into(), family.clone().into()]);
-        assert_eq!(printed(&run(cases)), "");
-        let files = Self { spheres, rays, family, t, id };
-        let mut trace = words(&format!("trace --pairs --accuracy {tier}"));
-        trace.extend(files.inputs());
-        trace.extend(["--out-t".into(), files.t.clone().into()]);
-        trace.extend(["--out-id".into(), files.id.clone().into()]);
-        printed(&run(trace));
-        files
+    fn new(name: &str, options: &str, tier: &str) -> Self {
+        let files = ["s", "r", "f", "t", "i"].map(|part| format!("judge-{name}.{part}.npy"));
+        let [spheres, rays, family, t, id] = files.map(|name| file(&name, b""));
+        let cases = format!("--out-spheres {spheres} --out-rays {rays} --out-family {family}");
+        assert_eq!(prints(&format!("cases {options} {cases}")), "");
+        let arrays = format!("--spheres {spheres} --rays {rays} --out-t {t} --out-id {id}");
+        prints(&format!("trace --pairs --accuracy {tier} {arrays}"));
+        Self { spheres, rays, family, t, id }
     }
 
-    fn inputs(&self) -> Vec<OsString> {
-        let [spheres, rays] = [&self.spheres, &self.rays].map(|path| path.clone().into());
-        vec!["--spheres".into(), spheres, "--rays".into(), rays]
+    /// The words that have the answers judged.
+    fn judge(&self, options: &str) -> String {
+        let Self { spheres, rays, t, .. } = self;
+        format!("judge {options} --spheres {spheres} --rays {rays} --t {t}")
     }
 
-    fn judge(&self, line: &str) -> Vec<OsString> {
-        let mut judge = words(&format!("judge {line}"));
-        judge.extend(self.inputs());
-        judge.extend(["--t".into(), self.t.clone().into()]);
-        judge
-    }
-
-    fn report(&self, line: &str) -> Value {
-        let mut judge = self.judge(&format!("--json {line}"));
-        judge.extend(["--family".into(), self.family.clone().into()]);
-        serde_json::from_str(&printed(&run(judge))).expect("JSON")
+    fn report(&self, options: &str) -> Value {
+        let text = prints(&self.judge(&format!("--json --family {} {options}", self.family)));
+        serde_json::from_str(&text).expect("JSON")
     }
 }
 
@@ -77,7 +67,7 @@ const KINDS: [&str; 6] =
 #[test]
 fn exact_is_right_in_every_family() {
     let files = Files::new("exact", "--count 2400", "exact");
-    let report = files.report(&format!("--pairs --id {}", files.id.display()));
+    let report = files.report(&format!("--pairs --id {}", files.id));
     assert_eq!(report["families"].as_array().map(Vec::len), Some(24));
     for by in ["by_rules", "by_contract"] {
         assert_eq!(report["all"][by]["judged"], 2400);
@@ -98,7 +88,7 @@ fn fast_is_wrong_and_the_snippet_has_the_numbers() {
     let failure = &report["failures"][0]["smallest"];
     assert_eq!((&failure["truth"], &failure["family"]), (&Value::Null, &"far-1e4".into()));
     let row = failure["row"].as_u64().expect("a row") as usize;
-    let rays = floats(&data(&files.rays));
+    let rays = floats(&files.rays);
     let python = failure["python"].as_str().expect("a text");
     let c = failure["c"].as_str().expect("a text");
     for x in &rays[8 * row..8 * row + 6] {
@@ -106,7 +96,7 @@ fn fast_is_wrong_and_the_snippet_has_the_numbers() {
         assert!(python.contains(&format!("h(\"{hex}\")")) && c.contains(&format!("{hex}f")), "{x}");
     }
     // The same in words, and a picture.
-    let text = printed(&run(files.judge("--pairs --chart")));
+    let text = prints(&files.judge("--pairs --chart"));
     assert!(text.starts_with("2400 rays, 2400 spheres\nfamily "), "{text}");
     for part in [
         "smallest, row ",
@@ -122,23 +112,17 @@ fn fast_is_wrong_and_the_snippet_has_the_numbers() {
 
 #[test]
 fn rays_that_share_spheres_are_judged_with_what_they_name() {
-    let spheres =
-        file("judge-shared.s.npy", &array(2, 4, &[0.0, 0.0, 5.0, 1.0, 0.0, 0.0, 9.0, 1.0]));
     let ray = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, f32::INFINITY];
-    let rays = file("judge-shared.r.npy", &array(3, 8, &[ray; 3].concat()));
-    let t = file(
-        "judge-shared.t.npy",
-        &column("<f4", 3, &[4.0_f32, 8.0, 6.0].map(f32::to_le_bytes).concat()),
-    );
-    let id = file(
-        "judge-shared.i.npy",
-        &column("<i4", 3, &[0_i32, 1, 0].map(i32::to_le_bytes).concat()),
-    );
-    let family = file("judge-shared.f.npy", &column("|u1", 3, &[0; 3]));
+    let [spheres, rays, t, id, family] = [
+        ("s", array(2, 4, &[0.0, 0.0, 5.0, 1.0, 0.0, 0.0, 9.0, 1.0])),
+        ("r", array(3, 8, &[ray; 3].concat())),
+        ("t", column("<f4", 3, &[4.0_f32, 8.0, 6.0].map(f32::to_le_bytes).concat())),
+        ("i", column("<i4", 3, &[0_i32, 1, 0].map(i32::to_le_bytes).concat())),
+        ("f", column("|u1", 3, &[0; 3])),
+    ]
+    .map(|(name, bytes)| file(&format!("judge-shared.{name}.npy"), bytes));
     let files = Files { spheres, rays, family, t, id };
-    let mut judge = files.judge("--json");
-    judge.extend(["--id".into(), files.id.clone().into()]);
-    let report: Value = serde_json::from_str(&printed(&run(judge))).expect("JSON");
+    let report = files.report(&format!("--id {}", files.id));
     let counts = &report["all"]["by_rules"];
     let found = KINDS.map(|kind| counts[kind].as_u64());
     assert_eq!(found, [0, 0, 1, 1, 0, 0].map(Some), "{report}");
@@ -147,95 +131,67 @@ fn rays_that_share_spheres_are_judged_with_what_they_name() {
 #[test]
 fn double_answers_and_rules() {
     let files = Files::new("double", "--count 480 --family tangent,ordinary", "exact");
-    let t = floats(&data(&files.t));
+    let t = floats(&files.t);
     let doubles: Vec<u8> = t.iter().flat_map(|&t| f64::from(t).to_le_bytes()).collect();
-    let double = file("judge-double.t8.npy", &column("<f8", t.len(), &doubles));
+    let double = file("judge-double.t8.npy", column("<f8", t.len(), &doubles));
     let files = Files { t: double, ..files };
     let wrong = |report: &Value, by: &str| {
         KINDS.iter().map(|kind| report["all"][by][kind].as_u64().expect("a count")).sum::<u64>()
     };
     assert_eq!(wrong(&files.report("--pairs"), "by_rules"), 0);
-    let rules = file("judge-double.toml", b"tangents = \"miss\"\ninterval = \"open-start\"\n");
-    let report = files.report(&format!("--pairs --rules {}", rules.display()));
+    let rules = file("judge-double.toml", "tangents = \"miss\"\ninterval = \"open-start\"\n");
+    let report = files.report(&format!("--pairs --rules {rules}"));
     assert!(wrong(&report, "by_rules") > 100 && wrong(&report, "by_contract") == 0, "{report}");
-}
-
-fn column(dtype: &str, rows: usize, data: &[u8]) -> Vec<u8> {
-    let header = format!("{{'descr': '{dtype}', 'fortran_order': False, 'shape': ({rows},), }}\n");
-    npy(&header, data)
 }
 
 #[test]
 fn answers_that_are_none() {
     let files = Files::new("none", "--count 4 --family ordinary", "exact");
     let four = |t: [f32; 4]| column("<f4", 4, &t.map(f32::to_le_bytes).concat());
-    let ids = |id: [i32; 4]| column("<i4", 4, &id.map(i32::to_le_bytes).concat());
+    let refused = |t: Vec<u8>, id: Option<[i32; 4]>, options: &str| {
+        let t = file("judge-none.other-t.npy", t);
+        let id = id.map_or_else(String::new, |id| {
+            let bytes = column("<i4", 4, &id.map(i32::to_le_bytes).concat());
+            format!("--id {}", file("judge-none.other-i.npy", bytes))
+        });
+        refuses(&Files { t, ..files.clone() }.judge(&format!("{options} {id}")))
+    };
     let inf = f32::INFINITY;
-    let refused = |name: &str, t: &[u8], id: Option<&[u8]>, line: &str| {
-        let t = file(&format!("judge-none.{name}.t.npy"), t);
-        let mut judge = words(&format!("judge {line}"));
-        judge.extend(files.inputs());
-        judge.extend(["--t".into(), t.into()]);
-        if let Some(id) = id {
-            let id = file(&format!("judge-none.{name}.i.npy"), id);
-            judge.extend(["--id".into(), id.into()]);
-        }
-        refusal(&run(judge))
-    };
-    for (name, t, id, end) in [
-        (
-            "nan",
-            four([1.0, f32::NAN, inf, inf]),
-            None,
-            "row 1: t is NaN; a number, or +inf of a miss",
-        ),
-        (
-            "minus",
-            four([-inf, inf, inf, inf]),
-            None,
-            "row 0: t is -inf; a number, or +inf of a miss",
-        ),
-        ("range", four([1.0, inf, inf, inf]), Some([4, -1, -1, -1]), "row 0: id 4 of 4 spheres"),
-        ("below", four([1.0, inf, inf, inf]), Some([-2, -1, -1, -1]), "row 0: id -2 of 4 spheres"),
-        (
-            "hit",
-            four([1.0; 4]),
-            Some([0, 1, -1, 3]),
-            "row 2: t = 1 where nothing is hit; +inf with id -1",
-        ),
-        (
-            "id",
-            four([inf; 4]),
-            Some([-1, 2, -1, -1]),
-            "row 1: id 2 without a hit; -1 with t = +inf",
-        ),
-        ("few", column("<f4", 3, &[0; 12]), None, "3 rows, and 4 rays"),
-        ("short", column("<f4", 4, &[0; 15]), None, "fewer bytes than 4 rows have"),
-        ("long", column("<f4", 4, &[0; 17]), None, "more bytes than 4 rows have"),
-        ("type", column("<i4", 4, &[0; 16]), None, "dtype '<i4', not '<f4' or '<f8'"),
-        ("order", column(">f4", 4, &[0; 16]), None, "dtype '>f4', not '<f4' or '<f8'"),
-        ("shape", array(4, 1, &[0.0; 4]), None, "shape [4, 1], not (N,)"),
+    let misses = || four([inf; 4]);
+    for (t, id, end) in [
+        (four([1.0, f32::NAN, inf, inf]), None, "row 1: t is NaN; a number, or +inf of a miss"),
+        (four([-inf, inf, inf, inf]), None, "row 0: t is -inf; a number, or +inf of a miss"),
+        (four([1.0, inf, inf, inf]), Some([4, -1, -1, -1]), "row 0: id 4 of 4 spheres"),
+        (four([1.0, inf, inf, inf]), Some([-2, -1, -1, -1]), "row 0: id -2 of 4 spheres"),
+        (four([1.0; 4]), Some([0, 1, -1, 3]), "row 2: t = 1 where nothing is hit; +inf with id -1"),
+        (misses(), Some([-1, 2, -1, -1]), "row 1: id 2 without a hit; -1 with t = +inf"),
+        (column("<f4", 3, &[0; 12]), None, "3 rows, and 4 rays"),
+        (column("<f4", 4, &[0; 15]), None, "fewer bytes than 4 rows have"),
+        (column("<f4", 4, &[0; 17]), None, "more bytes than 4 rows have"),
+        (column("<i4", 4, &[0; 16]), None, "dtype '<i4', not '<f4' or '<f8'"),
+        (column(">f4", 4, &[0; 16]), None, "dtype '>f4', not '<f4' or '<f8'"),
+        (array(4, 1, &[0.0; 4]), None, "shape [4, 1], not (N,)"),
     ] {
-        let id = id.map(ids);
-        let message = refused(name, &t, id.as_deref(), "");
-        assert!(message.ends_with(end), "{name}: {message}");
+        let message = refused(t, id, "");
+        assert!(message.ends_with(end), "{end}: {message}");
     }
-    let pair = refused("pair", &four([1.0; 4]), Some(&ids([0, 0, 2, 3])), "--pairs");
+    let pair = refused(four([1.0; 4]), Some([0, 0, 2, 3]), "--pairs");
     assert!(pair.ends_with("row 1: id 0; 1 of a pair, or -1"), "{pair}");
-    let rules = |name: &str, text: &str| {
-        let rules = file(&format!("judge-{name}.toml"), text.as_bytes());
-        refused(name, &four([inf; 4]), None, &format!("--rules {}", rules.display()))
-    };
-    assert!(rules("unknown", "\nshape = 3\n").contains(".toml:2: unknown field `shape`"));
-    assert!(rules("value", "tangents = \"maybe\"").contains(".toml:1: unknown variant `maybe`"));
-    assert!(rules("sizes", "smallest = 2.0\nlargest = 1.0\n").contains("no size is between them"));
-    assert!(rules("solid", "inside = \"solid\"\n").contains("inside = \"solid\" answers t = 0"));
-    assert!(rules("double", "precision = \"f64\"\n").contains("the answers are float32"));
-    let family = file("judge-none.f.npy", &column("|u1", 4, &[0, 1, 99, 0]));
-    let message =
-        refused("family", &four([inf; 4]), None, &format!("--family {}", family.display()));
+    for (rules, part) in [
+        ("\nshape = 3\n", ".toml:2: unknown field `shape`"),
+        ("tangents = \"maybe\"", ".toml:1: unknown variant `maybe`"),
+        ("smallest = 2.0\nlargest = 1.0\n", "no size is between them"),
+        ("inside = \"solid\"\n", "inside = \"solid\" answers t = 0"),
+        ("precision = \"f64\"\n", "the answers are float32"),
+    ] {
+        let rules = file("judge-none.toml", rules);
+        let message = refused(misses(), None, &format!("--rules {rules}"));
+        assert!(message.contains(part), "{part}: {message}");
+    }
+    let family = file("judge-none.other-f.npy", column("|u1", 4, &[0, 1, 99, 0]));
+    let message = refused(misses(), None, &format!("--family {family}"));
     assert!(message.ends_with("row 2: no family 99; 0 to 23"), "{message}");
-    let missing = refused("missing", &four([inf; 4]), None, "--rules no-such.toml");
+    let missing = refused(misses(), None, "--rules no-such.toml");
     assert_eq!(missing, "no-such.toml: no such file or directory");
 }
 
@@ -243,22 +199,20 @@ fn answers_that_are_none() {
 #[test]
 fn spheres_of_a_pipe_take_the_memory_that_they_need() {
     let files = Files::new("pipe", "--count 4 --family ordinary", "exact");
-    let (rays, t) = (files.rays.display(), files.t.display());
-    let line = format!("judge --spheres /dev/stdin --rays {rays} --t {t}");
+    let line = Files { spheres: "/dev/stdin".to_owned(), ..files }.judge("");
     let refused = refusal(&run_with_input(&line, &array(1_000_000_000_000, 4, &[1.0; 8])));
     assert!(refused.ends_with("fewer bytes than 1000000000000 rows have"), "{refused}");
     // More than are read at once.
     let many: Vec<f32> = (0..20_000).flat_map(|x| [x as f32, 0.0, 5.0, 0.25]).collect();
-    let report = printed(&run_with_input(&line, &array(20_000, 4, &many)));
+    let report = printed(run_with_input(&line, &array(20_000, 4, &many)));
     assert!(report.starts_with("4 rays, 20000 spheres\n"), "{report}");
 }
 
 #[test]
 fn cases_are_the_same_as_lines_and_in_files() {
     let files = Files::new("lines", "--count 60 --seed 7", "exact");
-    let (rays, spheres) = (floats(&data(&files.rays)), floats(&data(&files.spheres)));
-    let t = floats(&data(&files.t));
-    let lines = printed(&run(words("cases --json --count 60 --seed 7")));
+    let [rays, spheres, t] = [&files.rays, &files.spheres, &files.t].map(|path| floats(path));
+    let lines = prints("cases --json --count 60 --seed 7");
     assert_eq!(lines.lines().count(), 60);
     let hex = |x: f32| Value::from(spherule_referee::snippet::hex(x));
     for (index, line) in lines.lines().enumerate() {
@@ -270,19 +224,16 @@ fn cases_are_the_same_as_lines_and_in_files() {
         assert_eq!(case["t"], expected);
     }
     assert_eq!(data(&files.family)[22..26], [22, 23, 0, 1]);
-    let list = printed(&run(["cases"]));
+    let list = prints("cases");
     assert_eq!(list.lines().count(), 24);
     assert!(list.contains(" 5 tangent "));
-    let unknown = refusal(&run(words("cases --family tangents")));
-    assert!(unknown.contains("one of ordinary, far-1e2"), "{unknown}");
-    assert!(refusal(&run(words("cases --json --out-rays r.npy"))).contains("cannot be used with"));
 }
 
 /// Directions that are brought to length one leave intervals where they end on the ray.
 #[test]
 fn unit_directions_keep_ends_at_roots() {
     let files = Files::new("unit", "--unit --count 400 --family interval-at-root", "exact");
-    let (rays, spheres) = (floats(&data(&files.rays)), floats(&data(&files.spheres)));
+    let (rays, spheres) = (floats(&files.rays), floats(&files.spheres));
     let is_at_root = |(ray, sphere): &(&[f32; 8], &[f32; 4])| {
         let [x, y, z, dx, dy, dz, t_min, t_max] = **ray;
         let ray = Ray::new(Vec3::new(x, y, z), Vec3::new(dx, dy, dz));
@@ -298,13 +249,11 @@ fn unit_directions_keep_ends_at_roots() {
 
 #[test]
 fn cases_that_cannot_be_written_leave_nothing() {
-    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("judge-half");
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir(&folder).expect("a folder");
-    let mut cases = words("cases --count 100000 --out-rays /dev/full --out-spheres");
-    cases.push(folder.join("s.npy").into());
-    assert_eq!(run(cases).status.code(), Some(1));
-    assert_eq!(fs::read_dir(&folder).expect("a folder").count(), 0);
+    let folder = folder("judge-half");
+    let cases = "cases --count 100000 --out-rays /dev/full --out-spheres";
+    let output = run(format!("{cases} {}/s.npy", folder.display()).split(' '));
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(names(&folder), [""; 0]);
 }
 
 #[test]
@@ -314,14 +263,11 @@ fn what_is_asked_again_is_smaller() {
     let script = format!(
         "{program} trace --pairs --accuracy fast --spheres \"$1\" --rays \"$2\" --out-t \"$3\""
     );
-    let script = file("judge-again.sh", script.as_bytes());
-    let again = |command: String| {
-        let mut judge = files.judge("--pairs --json");
-        judge.extend(["--again".into(), command.into()]);
-        run(judge)
-    };
-    let report: Value =
-        serde_json::from_str(&printed(&again(format!("sh {}", script.display())))).expect("JSON");
+    let script = file("judge-again.sh", script);
+    let judge = files.judge("--pairs --json");
+    let again = |command: &str| run(judge.split_whitespace().chain(["--again", command]));
+    let report = printed(again(&format!("sh {script}")));
+    let report: Value = serde_json::from_str(&report).expect("JSON");
     let digits = |failure: &Value| {
         failure["ray_hex"].to_string().len() + failure["spheres_hex"].to_string().len()
     };
@@ -330,10 +276,6 @@ fn what_is_asked_again_is_smaller() {
         assert_eq!(worst.is_null(), smallest.is_null());
         assert!(worst.is_null() || digits(smallest) < digits(worst), "{smallest}");
     }
-    let fails = again("false".to_owned());
-    assert_eq!((fails.status.code(), fails.stdout.len()), (Some(1), 0));
-    assert!(
-        String::from_utf8_lossy(&fails.stderr)
-            .starts_with("spherule: --again: the command ends with")
-    );
+    let fails = failure(&again("false"));
+    assert!(fails.starts_with("--again: the command ends with"), "{fails}");
 }

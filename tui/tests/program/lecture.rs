@@ -1,17 +1,12 @@
 //! The lecture, printed.
 
-use crate::run::{printed, refusal, run};
+use crate::run::{is_of_size, prints};
 use spherule::lecture::stations::STATIONS;
 use std::fs;
 use std::path::Path;
 
 fn lecture(words: &str) -> String {
-    printed(&run(format!("lecture {words}").split_whitespace()))
-}
-
-/// So many lines of so many columns.
-fn is_a_page(text: &str, columns: usize, rows: usize) -> bool {
-    text.lines().count() == rows && text.lines().all(|line| line.chars().count() == columns)
+    prints(&format!("lecture {words}"))
 }
 
 #[test]
@@ -43,7 +38,7 @@ fn every_station_is_printed_by_number_and_by_name() {
     let mut all = String::new();
     for (number, entry) in (1..).zip(&STATIONS) {
         let page = lecture(&format!("--once --station {number}"));
-        assert!(is_a_page(&page, 80, 24), "{page}");
+        assert!(is_of_size(&page, "80x24"), "{page}");
         assert!(page.starts_with(&format!(" {number:>2}/14  {}", entry.title)), "{page}");
         assert!(page.is_ascii() && !page.contains('\x1b'), "{page}");
         assert_eq!(lecture(&format!("--station {}", entry.name)), page);
@@ -68,20 +63,10 @@ fn colour_is_there_when_it_is_asked_for() {
 fn a_size_is_kept_and_one_that_is_too_small_is_named() {
     for number in 1..=STATIONS.len() {
         let large = lecture(&format!("--station {number} --size 132x50"));
-        assert!(is_a_page(&large, 132, 50) && !large.contains("needs"), "{large}");
+        assert!(is_of_size(&large, "132x50") && !large.contains("needs"), "{large}");
         let small = lecture(&format!("--station {number} --size 40x10"));
-        assert!(is_a_page(&small, 40, 10), "{small}");
+        assert!(is_of_size(&small, "40x10"), "{small}");
         assert!(small.ends_with("needs 80x24, has 40x10                  \n"), "{small}");
-        assert!(is_a_page(&lecture(&format!("--station {number} --size 1x1")), 1, 1));
+        assert!(is_of_size(&lecture(&format!("--station {number} --size 1x1")), "1x1"));
     }
-}
-
-#[test]
-fn a_station_that_is_none_is_refused() {
-    for station in ["0", "15", "triangles", "-1"] {
-        let message = refusal(&run(["lecture", &format!("--station={station}")]));
-        assert!(message.contains("unknown station; 1 to 14"), "{message}");
-    }
-    assert!(refusal(&run(["lecture", "--size", "0x0"])).contains("each 1 to 4096"));
-    assert!(refusal(&run(["lecture", "unit"])).contains("unit"));
 }

@@ -15,6 +15,7 @@ mod output;
 mod pick;
 mod pixels;
 mod png;
+mod rows;
 mod run;
 mod scales;
 mod scenes;

@@ -1,12 +1,11 @@
 //! Image order and object order: the same pictures, byte for byte, and the counts of both.
 
-use crate::run::{file, printed, refusal, run};
-use serde_json::Value;
+use crate::run::{file, json, prints};
 use spherule::scene::builtin::BUILTINS;
 
 /// A picture in both orders; object order on several numbers of threads.
 fn the_same_picture(words: &str) {
-    let picture = |more: &str| printed(&run(format!("{words} --once {more}").split_whitespace()));
+    let picture = |more: &str| prints(&format!("{words} --once {more}"));
     let expected = picture("--threads 1");
     assert!(expected.lines().count() > 5, "{words}");
     assert!(picture("--order image --structure brute") == expected, "{words}");
@@ -62,28 +61,15 @@ fn so_with_spheres_around_the_eye_behind_it_huge_and_tiny() {
         text += &format!("[[sphere]]\ncenter = [{x:?}, {y:?}, {z:?}]\nradius = {radius:?}\n");
         text += &format!("color = \"#{:02x}80c0\"\n", (20.0 * (x + 5.0)) as u8);
     }
-    let path = file("orders.toml", text.as_bytes());
-    let path = path.to_str().expect("UTF-8");
+    let path = file("orders.toml", text);
     for more in ["", "--projection parallel", "--accuracy stable", "--samples 16"] {
         the_same_picture(&format!("{path} --size 30x11 --charset half --color truecolor {more}"));
     }
 }
 
-#[test]
-fn so_in_pixels() {
-    let png = |more: &str| {
-        let words = format!("caffeine --size 20x8 --png - {more}");
-        let output = run(words.split_whitespace());
-        assert!(output.status.success(), "{words}");
-        output.stdout
-    };
-    assert!(png("--order object") == png("--order image"));
-}
-
 /// The counts of the `tradeoff` of some words: tests, writes and overwritten writes of both orders.
 fn counts(words: &str) -> [[u64; 3]; 2] {
-    let words = format!("tradeoff --json {words}");
-    let report: Value = serde_json::from_str(&printed(&run(words.split(' ')))).expect("JSON");
+    let report = json(&format!("tradeoff --json {words}"));
     ["image", "object"].map(|order| {
         let counts = &report["orders"][order];
         assert_eq!(counts.as_object().map(serde_json::Map::len), Some(3));
@@ -100,14 +86,13 @@ fn counts_by_hand() {
                 [[sphere]]\ncenter = [0, 0, 9]\nradius = 1.0\n\
                 [[sphere]]\ncenter = [0, 0, 0]\nradius = 1.0\n\
                 [[sphere]]\ncenter = [0.25, 0.25, -1]\nradius = 0.001\n";
-    let path = file("counts.toml", text.as_bytes());
-    let path = path.to_str().expect("UTF-8");
+    let path = file("counts.toml", text);
     for more in ["--threads 1", "--threads 2 --order object", "--threads 7 --structure bvh"] {
         let [image, object] = counts(&format!("{path} --size 8x4 {more}"));
         assert_eq!(image, [4 * 128, 128, 0], "{more}");
         assert_eq!(object, [2 * 128 + 16, 256, 128], "{more}");
     }
-    let table = printed(&run(format!("tradeoff {path} --size 8x4 --order object").split(' ')));
+    let table = prints(&format!("tradeoff {path} --size 8x4 --order object"));
     let rows: Vec<Vec<&str>> =
         table.lines().map(|line| line.split_whitespace().collect()).collect();
     for row in [["image", "512", "128", "0"], ["object", "272", "256", "128"]] {
@@ -125,20 +110,4 @@ fn counts_do_not_depend_on_threads_or_order() {
     for more in ["--threads 2", "--threads 7", "--order object"] {
         assert_eq!(counts(&format!("flake --size 30x12 {more}")), expected, "{more}");
     }
-}
-
-#[test]
-fn orders_that_are_none_and_structures_beside_one() {
-    for before in ["", "tradeoff "] {
-        let message = refusal(&run(format!("{before}--order pixel").split(' ')));
-        assert!(message.contains("[possible values: image, object]"), "{message}");
-        for structure in ["auto", "brute", "depth-list", "tiles", "bvh"] {
-            let words = format!("{before}unit --order object --structure {structure}");
-            let message = refusal(&run(words.split(' ')));
-            let expected = "the argument '--order object' cannot be used with '--structure <HOW>'";
-            assert_eq!(message, expected, "{words}");
-        }
-    }
-    let words = "trace --spheres s.npy --rays r.npy --order object";
-    assert!(refusal(&run(words.split(' '))).contains("--order"));
 }

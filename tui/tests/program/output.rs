@@ -1,10 +1,11 @@
 //! One picture: its lines, its colours, and where it goes.
 
-use crate::run::{file, printed, run, run_with_input, spherule};
+use crate::run::{
+    file, is_of_size, printed, prints, run, run_with_input, spherule, stderr, without_reader,
+};
 use clap::ValueEnum;
 use spherule::choice::name;
 use spherule::style::Charset;
-use std::ffi::OsStr;
 use std::fs::OpenOptions;
 use std::io::{BufRead, BufReader, Read};
 use std::os::fd::OwnedFd;
@@ -20,7 +21,6 @@ fn pictures_of_a_cell_or_a_colour() {
     // Nothing is behind the eye.
     let scene = b"[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
     let even = file("even.toml", scene);
-    let even = even.to_str().expect("a name");
     let equal = ["808080"; 16].join(",");
     for charset in Charset::value_variants().iter().map(name) {
         for color in ["never", "16", "256", "truecolor"] {
@@ -28,14 +28,13 @@ fn pictures_of_a_cell_or_a_colour() {
                 let words = format!(
                     "marbles --charset {charset} --color {color} --distance {distance} --size {size} --palette {equal}"
                 );
-                let lines = printed(&run(words.split(' '))).lines().count();
-                assert_eq!(lines, rows, "{words}");
+                assert_eq!(prints(&words).lines().count(), rows, "{words}");
             }
             for background in ["000000", "ffffff", "7f7f7f"] {
                 let words = format!(
                     "{even} --charset {charset} --color {color} --background {background} --size 8x4"
                 );
-                let text = printed(&run(words.split(' ')));
+                let text = prints(&words);
                 let lines: Vec<&str> = text.lines().collect();
                 assert_eq!(lines.len(), 4, "{words}: {text}");
                 if color == "truecolor" {
@@ -52,13 +51,11 @@ fn pictures_of_a_cell_or_a_colour() {
 
 #[test]
 fn a_picture_is_exactly_its_rows() {
-    for (size, rows) in [("80x24", 24), ("1x1", 1), ("7x3", 3), ("200x1", 1)] {
+    for size in ["80x24", "1x1", "7x3", "200x1"] {
         for charset in ["ascii", "half"] {
-            let text = printed(&run(["--size", size, "--charset", charset]));
+            let text = prints(&format!("--size {size} --charset {charset}"));
             assert!(text.ends_with('\n') && !text.contains('\x1b'), "{size} {charset}");
-            assert_eq!(text.lines().count(), rows);
-            let columns: usize = size.split('x').next().and_then(|n| n.parse().ok()).expect("n");
-            assert!(text.lines().all(|line| line.chars().count() == columns));
+            assert!(is_of_size(&text, size), "{size} {charset}");
         }
     }
 }
@@ -68,18 +65,12 @@ fn a_picture_is_exactly_its_rows() {
 fn every_charset_and_depth_draws_any_size() {
     for charset in Charset::value_variants().iter().map(name) {
         for color in ["never", "16", "256", "truecolor"] {
-            let of_size = |size| {
-                let words = ["--size", size, "--charset", &charset, "--color", color, "--once"];
-                printed(&run(words))
-            };
-            let text = of_size("1x1");
+            let text = prints(&format!("--size 1x1 --charset {charset} --color {color} --once"));
             assert_eq!(text.lines().count(), 1, "{charset} {color}");
             assert_eq!(text.contains('\x1b'), color != "never", "{charset} {color}: {text:?}");
         }
     }
-    let text = printed(&run(["--size", "4096x33", "--charset", "half", "--color", "never"]));
-    assert_eq!(text.lines().count(), 33);
-    assert!(text.lines().all(|line| line.chars().count() == 4096));
+    assert!(is_of_size(&prints("--size 4096x33 --charset half --color never"), "4096x33"));
 }
 
 /// Such a picture takes long, and more memory than there is unless it goes out as it is drawn.
@@ -98,22 +89,15 @@ fn the_largest_picture_begins_at_once_and_ends_with_its_reader() {
     assert!(output.status.success() && output.stderr.is_empty(), "{output:?}");
 }
 
-#[test]
-fn a_pipe_gets_eighty_by_twenty_four_without_colour() {
-    let text = printed(&run(["unit"]));
-    assert_eq!(text, printed(&run("unit --size 80x24 --charset ascii --color never".split(' '))));
-    assert_eq!(text, printed(&run(["unit", "--once"])));
-    assert!(text.is_ascii());
-}
-
 /// Those terminals' variable is there in a pipe, too.
 #[test]
 fn a_pipe_gets_no_pixels_from_a_terminal_that_has_them() {
-    let cells = printed(&run(["unit"]));
+    let cells = prints("unit");
+    assert!(cells.is_ascii() && is_of_size(&cells, "80x24"));
     for name in ["WezTerm", "iTerm.app"] {
         let auto = ["unit", "--output", "auto"];
         let output = spherule().args(auto).env("TERM_PROGRAM", name).output();
-        assert_eq!(printed(&output.expect("the program runs")), cells, "{name}");
+        assert_eq!(printed(output.expect("the program runs")), cells, "{name}");
     }
 }
 
@@ -121,8 +105,7 @@ fn a_pipe_gets_no_pixels_from_a_terminal_that_has_them() {
 fn every_coloured_line_is_closed_by_a_reset() {
     for color in ["16", "256", "truecolor", "always"] {
         for charset in ["ascii", "half"] {
-            let words = ["--size", "40x12", "--charset", charset, "--color", color];
-            let text = printed(&run(words));
+            let text = prints(&format!("--size 40x12 --charset {charset} --color {color}"));
             assert_eq!(text.lines().count(), 12);
             for line in text.lines().filter(|line| line.contains('\x1b')) {
                 assert!(line.ends_with("\x1b[0m"), "{color} {charset}: {line:?}");
@@ -134,21 +117,24 @@ fn every_coloured_line_is_closed_by_a_reset() {
 
 #[test]
 fn the_flag_then_no_color_then_clicolor_force() {
-    let coloured = |flag: &[&str], variables: &[(&str, &str)]| {
+    for (flag, variables, is_coloured) in [
+        ("", "", false),
+        ("", "CLICOLOR_FORCE=1", true),
+        ("", "CLICOLOR_FORCE=0", false),
+        ("", "CLICOLOR_FORCE=", false),
+        ("", "CLICOLOR_FORCE=1 NO_COLOR=1", false),
+        ("", "CLICOLOR_FORCE=1 NO_COLOR=0", false),
+        ("", "CLICOLOR_FORCE=1 NO_COLOR=", true),
+        ("--color always", "NO_COLOR=1", true),
+        ("--color 256", "NO_COLOR=1", true),
+        ("--color never", "CLICOLOR_FORCE=1", false),
+    ] {
         let mut command = spherule();
-        command.args(["unit", "--size", "20x6"]).args(flag).envs(variables.iter().copied());
-        printed(&command.output().expect("the program runs")).contains('\x1b')
-    };
-    assert!(!coloured(&[], &[]));
-    assert!(coloured(&[], &[("CLICOLOR_FORCE", "1")]));
-    assert!(!coloured(&[], &[("CLICOLOR_FORCE", "0")]));
-    assert!(!coloured(&[], &[("CLICOLOR_FORCE", "")]));
-    assert!(!coloured(&[], &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "1")]));
-    assert!(!coloured(&[], &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "0")]));
-    assert!(coloured(&[], &[("CLICOLOR_FORCE", "1"), ("NO_COLOR", "")]));
-    assert!(coloured(&["--color", "always"], &[("NO_COLOR", "1")]));
-    assert!(coloured(&["--color", "256"], &[("NO_COLOR", "1")]));
-    assert!(!coloured(&["--color", "never"], &[("CLICOLOR_FORCE", "1")]));
+        command.args(["unit", "--size", "20x6"]).args(flag.split_whitespace());
+        command.envs(variables.split_whitespace().filter_map(|pair| pair.split_once('=')));
+        let text = printed(command.output().expect("the program runs"));
+        assert_eq!(text.contains('\x1b'), is_coloured, "{flag} {variables}");
+    }
 }
 
 #[test]
@@ -157,7 +143,7 @@ fn the_depth_is_what_the_environment_says() {
         let mut command = spherule();
         command.args(["marbles", "--size", "20x6", "--color", "always"]);
         command.env("TERM", term).env("COLORTERM", colorterm);
-        printed(&command.output().expect("the program runs"))
+        printed(command.output().expect("the program runs"))
     };
     assert!(text("xterm", "truecolor").contains("8;2;"));
     assert!(text("xterm-256color", "24bit").contains("8;2;"));
@@ -194,17 +180,16 @@ fn a_slow_reader_gets_all() {
 
 #[test]
 fn a_reader_that_goes_away_is_a_success() {
-    for words in ["--size 500x500 --color truecolor", "unit", "scenes", "--help", "trace --help"] {
-        let mut child = spherule()
-            .args(words.split(' '))
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("the program runs");
-        drop(child.stdout.take());
-        let output = child.wait_with_output().expect("the program ends");
-        let stderr = String::from_utf8_lossy(&output.stderr);
-        assert_eq!((output.status.code(), stderr.as_ref()), (Some(0), ""), "{words}");
+    for words in [
+        "--size 500x500 --color truecolor",
+        "unit",
+        "scenes",
+        "--help",
+        "trace --help",
+        "unit --size 200x60 --png -",
+    ] {
+        let output = without_reader(words);
+        assert_eq!((output.status.code(), &*stderr(&output)), (Some(0), ""), "{words}");
     }
 }
 
@@ -217,9 +202,8 @@ fn an_output_that_cannot_be_written_is_a_failure() {
     for words in ["unit", "scenes", "--version"] {
         let full = full.try_clone().expect("a handle");
         let output = spherule().args(words.split(' ')).stdout(full).output().expect("it runs");
-        let stderr = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{words}");
-        assert_eq!(stderr, "spherule: standard output: no space left on device\n");
+        assert_eq!(stderr(&output), "spherule: standard output: no space left on device\n");
     }
 }
 
@@ -228,80 +212,45 @@ fn an_output_that_cannot_be_written_is_a_failure() {
 fn a_background_is_for_scenes_that_name_none() {
     let plain = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
     let named = format!("background = \"#102030\"\n{plain}");
-    let (plain, named) =
-        (file("plain.toml", plain.as_bytes()), file("named.toml", named.as_bytes()));
     for (scene, without, with) in [
-        (plain.as_os_str(), "0;0;0", "255;238;221"),
-        ("caffeine".as_ref(), "16;18;26", "255;238;221"),
-        (named.as_os_str(), "16;32;48", "16;32;48"),
-        ("flake".as_ref(), "12;16;28", "12;16;28"),
-        ("marbles".as_ref(), "134;172;212", "134;172;212"),
+        (&*file("plain.toml", plain), "0;0;0", "255;238;221"),
+        ("caffeine", "16;18;26", "255;238;221"),
+        (&*file("named.toml", named), "16;32;48", "16;32;48"),
+        ("flake", "12;16;28", "12;16;28"),
+        ("marbles", "134;172;212", "134;172;212"),
     ] {
-        let corner = |more: &[&str]| {
-            let words = ["--size", "40x12", "--color", "truecolor", "--charset", "half"];
-            let words = words.iter().chain(more).map(|word| OsStr::new(*word));
-            let text = printed(&run([scene].into_iter().chain(words)));
+        let corner = |more: &str| {
+            let words = format!("{scene} --size 40x12 --color truecolor --charset half {more}");
+            let text = prints(&words);
             let start = text.strip_prefix("\x1b[").expect("a colour");
             start.split_once('m').expect("its end").0.trim_start_matches("48;2;").to_owned()
         };
-        assert_eq!(corner(&[]), without, "{scene:?}");
-        assert_eq!(corner(&["--background", "#ffeedd"]), with, "{scene:?}");
+        assert_eq!(corner(""), without, "{scene}");
+        assert_eq!(corner("--background #ffeedd"), with, "{scene}");
     }
 }
 
 #[test]
 fn scenes_are_listed_a_line_each() {
-    let text = printed(&run(["scenes"]));
-    let words: Vec<Vec<&str>> =
-        text.lines().map(|line| line.split_whitespace().take(2).collect()).collect();
-    assert_eq!(
-        words,
-        [
-            ["marbles", "10"],
-            ["unit", "1"],
-            ["flake", "7381"],
-            ["edge", "19"],
-            ["far", "12"],
-            ["caffeine", "24"]
-        ]
-    );
+    let text = prints("scenes");
+    let words = text.lines().map(|line| line.split_whitespace().take(2).collect::<Vec<_>>());
+    let words: Vec<String> = words.map(|words| words.join(" ")).collect();
+    assert_eq!(words, ["marbles 10", "unit 1", "flake 7381", "edge 19", "far 12", "caffeine 24"]);
 }
 
 #[test]
-fn marbles_is_what_is_shown_without_a_name() {
-    assert_eq!(printed(&run([""; 0])), printed(&run(["marbles"])));
-}
-
-#[test]
-fn a_molecule_from_its_name_its_file_and_standard_input() {
-    let shipped = printed(&run(["caffeine.xyz"]));
-    let text = include_bytes!("../../scenes/caffeine.xyz");
-    assert_eq!(shipped, printed(&run(["caffeine"])));
-    assert_eq!(
-        shipped,
-        printed(&run([concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/caffeine.xyz")]))
-    );
-    assert_eq!(shipped, printed(&run_with_input("-", text)));
+fn a_molecule_from_standard_input() {
+    let shipped = prints("caffeine");
+    assert_eq!(shipped, printed(run_with_input("-", include_bytes!("../../scenes/caffeine.xyz"))));
     assert!(shipped.contains('@'));
 }
 
 #[test]
-fn the_projection_can_be_chosen() {
-    let perspective = printed(&run(["--size", "40x12"]));
-    let parallel = printed(&run(["--size", "40x12", "--projection", "parallel"]));
-    assert_ne!(perspective, parallel);
-}
-
-#[test]
-fn the_lecture_s_forms_show_their_faults_in_edge_and_the_others_do_not() {
-    let picture = |tier| printed(&run(["edge", "--size", "80x24", "--accuracy", tier]));
+fn the_lecture_s_forms_show_their_faults_in_edge() {
+    let picture = |tier| prints(&format!("edge --size 80x24 --accuracy {tier}"));
     let exact = picture("exact");
-    assert_eq!(picture("stable"), exact);
-    assert_eq!(printed(&run(["edge", "--size", "80x24"])), exact, "the default");
     for tier in ["fast", "geometric"] {
         let differing = picture(tier).chars().zip(exact.chars()).filter(|(a, b)| a != b).count();
         assert!(differing > 100, "{tier}: {differing} of 1920 cells");
     }
-    assert_ne!(picture("fast"), picture("geometric"));
-    assert_eq!(picture("fast"), picture("algebraic"));
 }

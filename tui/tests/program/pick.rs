@@ -1,6 +1,6 @@
-//! `--pick`: worked by hand, against the kernel's own door, and its refusals.
+//! `--pick`: worked by hand, and against the kernel's own door.
 
-use crate::run::{file, printed, refusal, run, run_with_input};
+use crate::run::{self, file, printed, prints, run_with_input};
 use serde_json::{Value, json};
 use spherule::pick::cell_ray;
 use spherule::scene::builtin::builtin;
@@ -13,20 +13,18 @@ fn unit(name: &str, height: u8) -> String {
         "[camera]\neye = [0, 0, 3]\ntarget = [0, 0, 0]\nprojection = \"parallel\"\nheight = {height}\n\
          [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nlabel = \"the \\\"one\\\"\\n\"\n"
     );
-    file(name, text.as_bytes()).to_str().expect("UTF-8").to_owned()
+    file(name, text)
 }
 
-fn picked(words: &[&str]) -> Value {
-    let text = printed(&run(words.iter().chain(&["--json"])));
-    assert_eq!(text.lines().count(), 1);
-    serde_json::from_str(&text).expect("JSON")
+fn picked(words: &str) -> Value {
+    run::json(&format!("{words} --json"))
 }
 
 /// Three rows of a unit each: through the middle a = 1, D = 1, t = 3 -+ 1.
 #[test]
 fn the_unit_sphere_by_hand() {
     let path = unit("pick.toml", 3);
-    let middle = picked(&[&path, "--size", "1x3", "--pick", "0,1"]);
+    let middle = picked(&format!("{path} --size 1x3 --pick 0,1"));
     assert_eq!(middle["scene"], json!(path));
     assert_eq!((&middle["size"], &middle["cell"]), (&json!([1, 3]), &json!([0, 1])));
     let ray = json!({ "origin": [0.0, 0.0, 3.0], "direction": [0.0, 0.0, -1.0] });
@@ -54,7 +52,7 @@ fn the_unit_sphere_by_hand() {
 #[test]
 fn a_tangent_by_hand_for_people() {
     let path = unit("tangent.toml", 3);
-    let text = printed(&run([&path, "--size", "1x3", "--pick", "0,0"]));
+    let text = prints(&format!("{path} --size 1x3 --pick 0,0"));
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines[0], format!("{path}, cell 0,0 of 1x3"));
     assert_eq!(lines[1], "ray (0.0, 1.0, 3.0) + t (0.0, 0.0, -1.0)");
@@ -78,11 +76,10 @@ fn a_tangent_by_hand_for_people() {
 #[test]
 fn no_control_character_of_a_name_is_printed() {
     let text = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nlabel = \"\\u007f\\u009b31m\\u061c\\u202e\u{e9}\"\n";
-    let path = file("turned\u{202e}\u{9b}.toml", text.as_bytes());
-    let path = path.to_str().expect("UTF-8");
-    let words = [path, "--size", "1x1", "--pick", "0,0"];
-    for json in [None, Some("--json")] {
-        let text = printed(&run(words.into_iter().chain(json)));
+    let path = file("turned\u{202e}\u{9b}.toml", text);
+    let words = format!("{path} --size 1x1 --pick 0,0");
+    for json in ["", "--json"] {
+        let text = prints(&format!("{words} {json}"));
         assert!(text.contains('\u{e9}'), "{text:?}");
         for letter in ['\u{7f}', '\u{9b}', '\u{61c}', '\u{202e}'] {
             assert!(!text.contains(letter), "{letter:?} in {text:?}");
@@ -96,7 +93,7 @@ fn no_control_character_of_a_name_is_printed() {
 #[test]
 fn what_hits_nothing_says_so() {
     let path = unit("past.toml", 6);
-    let text = printed(&run([&path, "--size", "1x3", "--pick", "0,0"]));
+    let text = prints(&format!("{path} --size 1x3 --pick 0,0"));
     let (head, nothing) = text.split_once('\n').expect("lines");
     assert!(head.ends_with("cell 0,0 of 1x3"), "{head}");
     assert_eq!(
@@ -104,7 +101,7 @@ fn what_hits_nothing_says_so() {
         "ray (0.0, 2.0, 3.0) + t (0.0, 0.0, -1.0)\n\
          no sphere is hit, by fast, geometric, stable or exact\n"
     );
-    let none = picked(&[&path, "--size", "1x3", "--pick", "0,0"]);
+    let none = picked(&format!("{path} --size 1x3 --pick 0,0"));
     assert!(none["sphere"].is_null() && none["discriminant"].is_null(), "{none}");
     let tiers = none["tiers"].as_array().expect("a list");
     for tier in tiers {
@@ -119,12 +116,9 @@ fn what_hits_nothing_says_so() {
 fn a_picture_of_one_cell_and_both_projections() {
     let path = unit("cell.toml", 3);
     for projection in ["parallel", "perspective"] {
-        for words in [["--size", "1x1"], ["--size", "4095x4095"]] {
-            let middle = if words[1] == "1x1" { "0,0" } else { "2047,2047" };
-            let pick = picked(
-                &[&[&*path, "--projection", projection, "--pick", middle], &words[..]].concat(),
-            );
-            assert_eq!(pick["tiers"][3]["t"], json!(2.0), "{projection} {words:?}");
+        for middle in ["--size 1x1 --pick 0,0", "--size 4095x4095 --pick 2047,2047"] {
+            let pick = picked(&format!("{path} --projection {projection} {middle}"));
+            assert_eq!(pick["tiers"][3]["t"], json!(2.0), "{projection} {middle}");
         }
     }
 }
@@ -133,8 +127,8 @@ fn a_picture_of_one_cell_and_both_projections() {
 #[test]
 fn numbers_have_as_many_digits_as_they_need() {
     for words in ["edge --pick 9,6", "far --pick 40,12", "caffeine --pick 35,11"] {
-        let text = printed(&run(words.split(' ')));
-        let json = printed(&run(words.split(' ').chain(["--json"])));
+        let text = prints(words);
+        let json = prints(&format!("{words} --json"));
         let mut seen = 0;
         // Coordinates, a radius, and of every tier t and two roots; D and its bound are of double precision.
         for line in text.lines().filter(|line| !line.starts_with("D = ")) {
@@ -163,11 +157,11 @@ fn against_the_kernel(name: &str, cells: &[(u16, u16)]) -> usize {
     let mut differ = 0;
     for &cell in cells {
         let ray = cell_ray(&view, &Style::PLAIN, size, cell).expect("a cell");
-        let word = format!("{},{}", cell.0, cell.1);
-        let pick = picked(&[name, "--pick", &word, "--structure", "brute"]);
+        let words = format!("{name} --pick {},{} --structure", cell.0, cell.1);
+        let pick = picked(&format!("{words} brute"));
         // The structure decides which false hits the lecture's forms owe; it does not change what `Exact` says.
         for structure in ["auto", "depth-list", "bvh"] {
-            let by_it = picked(&[name, "--pick", &word, "--structure", structure]);
+            let by_it = picked(&format!("{words} {structure}"));
             assert_eq!(by_it["tiers"][3], pick["tiers"][3], "{structure}");
         }
         let picked = pick["sphere"]["index"].as_u64().map(|index| index as usize);
@@ -212,44 +206,6 @@ fn marbles_and_edge_are_as_the_kernel_says() {
 #[test]
 fn a_file_of_xyz_from_standard_input() {
     let output = run_with_input("- --pick 0,0 --size 1x1 --json", b"1\n\nH 1 2 3\n");
-    let pick: Value = serde_json::from_str(&printed(&output)).expect("JSON");
+    let pick: Value = serde_json::from_str(&printed(output)).expect("JSON");
     assert_eq!(pick["sphere"]["center"], json!([1.0, 2.0, 3.0]));
-}
-
-#[test]
-fn bad_use() {
-    for (words, part) in [
-        ("--pick 5", "COL,ROW"),
-        ("--pick -1,0", "COL,ROW"),
-        ("--pick 1e9,0", "COL,ROW"),
-        ("--pick 99999,0", "COL,ROW"),
-        ("--pick 1.5,0", "COL,ROW"),
-        ("--pick ,", "COL,ROW"),
-        ("--pick 1,2,3", "COL,ROW"),
-        ("--pick 80,0", "--pick 80,0: outside of the picture, which is 80x24; cells count from 0"),
-        ("--pick 0,24", "outside"),
-        ("--pick 1,0 --size 1x1", "outside of the picture, which is 1x1"),
-        ("--pick 65535,65535", "outside"),
-        ("--pick", "--pick <COL,ROW>"),
-        ("--pick 0,0 --pick 1,1", "--pick"),
-        ("--pick 0,0 --png -", "--png"),
-        ("--pick 0,0 --show error", "--show"),
-        ("--json", "--pick <COL,ROW>"),
-        ("--pick 0,0 scenes", "scenes"),
-        ("--pick 0,0 tradeoff", "tradeoff"),
-        ("tradeoff --pick 0,0", "--pick"),
-        ("scenes --pick 0,0", "--pick"),
-        ("--pick 0,0 nowhere.toml", "no such file"),
-    ] {
-        let message = refusal(&run(words.split(' ')));
-        assert!(message.contains(part), "{words}: {message}");
-    }
-    for (name, text) in [
-        ("picknan.toml", "[[sphere]]\ncenter = [0, nan, 0]\nradius = 1.0\n"),
-        ("pickempty.toml", "background = \"#000000\"\n"),
-    ] {
-        let path = file(name, text.as_bytes());
-        let path = path.to_str().expect("UTF-8");
-        refusal(&run([path, "--pick", "0,0"]));
-    }
 }

@@ -1,6 +1,7 @@
 //! `--output`: what terminals are sent in pixels is decoded here, and held against `--png`.
 
-use crate::run::{refusal, run, spherule};
+use crate::png::{self, decoded};
+use crate::run::{printed, spherule};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::read::ZlibDecoder;
@@ -8,32 +9,20 @@ use spherule::color::{Srgb, oklab};
 use spherule::picture::Image;
 use spherule::pixels::kitty;
 use spherule::pixels::sixel::percent;
-use std::io::{Cursor, Read};
-
-/// All pixels of a PNG.
-fn decoded(bytes: &[u8]) -> Image {
-    let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().expect("a PNG");
-    let (width, height) = reader.info().size();
-    let mut rgb = vec![0; reader.output_buffer_size().expect("a size")];
-    reader.next_frame(&mut rgb).expect("all of it");
-    Image { width, height, rgb }
-}
+use std::io::Read;
 
 fn png(words: &str) -> Image {
-    let output = run(words.split(' ').chain(["--png", "-"]));
-    assert_eq!((output.status.code(), &*output.stderr), (Some(0), b"".as_slice()), "{words}");
-    decoded(&output.stdout)
+    decoded(&png::png(words))
 }
 
-fn sent(words: &str, tmux: Option<&str>) -> Vec<u8> {
+/// What a terminal gets by these words.
+fn sent(words: &str, tmux: Option<&str>) -> String {
     let mut command = spherule();
     command.args(words.split(' ')).env_remove("TMUX");
     if let Some(tmux) = tmux {
         command.env("TMUX", tmux);
     }
-    let output = command.output().expect("the program runs");
-    assert_eq!((output.status.code(), &*output.stderr), (Some(0), b"".as_slice()), "{words}");
-    output.stdout
+    printed(command.output().expect("the program runs"))
 }
 
 /// What is between `begin` and `end`, as often as it is there.
@@ -69,7 +58,7 @@ const WORDS: &str = "marbles --size 30x9";
 
 #[test]
 fn kitty_gets_the_pixels_of_the_png() {
-    let text = String::from_utf8(sent(&format!("{WORDS} --output kitty"), None)).expect("UTF-8");
+    let text = sent(&format!("{WORDS} --output kitty"), None);
     let (keys, image) = of_kitty(&text);
     assert!(image == png(WORDS), "other pixels");
     for key in ["a=T", "f=24", "o=z", "c=30", "r=9"] {
@@ -80,9 +69,9 @@ fn kitty_gets_the_pixels_of_the_png() {
     assert!(text.starts_with(&format!("{}\x1b[8A\x1b_G", "\n".repeat(8))));
     assert!(text.ends_with("\x1b\\\x1b[8B\n"));
     let wide = "marbles --size 12x20 --cell-aspect 3:1";
-    let text = String::from_utf8(sent(&format!("{wide} --output kitty"), None)).expect("UTF-8");
+    let text = sent(&format!("{wide} --output kitty"), None);
     assert!(of_kitty(&text).1 == png(wide), "other pixels of wide cells");
-    let row = String::from_utf8(sent("marbles --size 30x1 --output kitty", None)).expect("UTF-8");
+    let row = sent("marbles --size 30x1 --output kitty", None);
     assert!(row.starts_with("\x1b_G") && row.ends_with("\x1b\\\n"), "{row:?}");
 }
 
@@ -91,7 +80,7 @@ fn kitty_gets_the_pixels_of_the_png() {
 fn a_screen_that_is_not_known_has_the_rows_of_a_picture_in_a_pipe() {
     for (rows, stays) in [(24, true), (25, false), (60, false)] {
         let words = format!("marbles --size 6x{rows} --output kitty");
-        let text = String::from_utf8(sent(&words, None)).expect("UTF-8");
+        let text = sent(&words, None);
         let (keys, _) = of_kitty(&text);
         assert_eq!(keys.split(',').any(|key| key == "C=1"), stays, "{rows}: {keys}");
         assert_eq!(text.starts_with('\n'), stays, "{rows}");
@@ -102,7 +91,7 @@ fn a_screen_that_is_not_known_has_the_rows_of_a_picture_in_a_pipe() {
 #[test]
 fn under_tmux_there_are_placeholders() {
     let words = format!("{WORDS} --output kitty");
-    let text = String::from_utf8(sent(&words, Some("/tmp/tmux,1,0"))).expect("UTF-8");
+    let text = sent(&words, Some("/tmp/tmux,1,0"));
     let (wrapped, cells) = text.rsplit_once("\x1b\\\x1b\\").expect("a wrapped command");
     let inside = format!("{wrapped}\x1b\\\x1b\\");
     let unwrapped: String = strings(&inside, "\x1bPtmux;", "\x1b\\\x1b\\")
@@ -117,7 +106,7 @@ fn under_tmux_there_are_placeholders() {
         let mut keys = text.split(',').filter_map(|key| key.strip_prefix("i="));
         keys.next().and_then(|number| number.parse::<u32>().ok()).expect("a number")
     };
-    let again = String::from_utf8(sent(&words, Some("/tmp/tmux,1,0"))).expect("UTF-8");
+    let again = sent(&words, Some("/tmp/tmux,1,0"));
     let (number, next) = (number_of(&keys), number_of(&again));
     assert!(number != next && !kitty::NUMBERS.contains(&number), "{number}, {next}");
     let rows: Vec<&str> = cells.trim_end_matches('\n').split('\n').collect();
@@ -134,7 +123,7 @@ fn under_tmux_there_are_placeholders() {
 
 #[test]
 fn iterm2_gets_the_pixels_of_the_png() {
-    let text = String::from_utf8(sent(&format!("{WORDS} --output iterm2"), None)).expect("UTF-8");
+    let text = sent(&format!("{WORDS} --output iterm2"), None);
     let command = strings(&text, "\x1b]1337;File=", "\x07");
     let [command] = command[..] else { panic!("{} commands", command.len()) };
     let (keys, data) = command.split_once(':').expect("data");
@@ -205,8 +194,7 @@ fn sixels_are_the_pixels_of_the_png_in_256_colours() {
     for (words, most) in
         [(WORDS, 0.012), ("unit --size 20x5", 0.003), ("caffeine --size 30x9", 0.012)]
     {
-        let text =
-            String::from_utf8(sent(&format!("{words} --output sixel"), None)).expect("UTF-8");
+        let text = sent(&format!("{words} --output sixel"), None);
         // After the last band the cursor is in the last row of cells.
         assert!(text.ends_with("\x1b\\\n") && !text.ends_with("-\x1b\\\n"), "{words}");
         let (image, expected) = (of_sixel(&text), png(words));
@@ -228,12 +216,4 @@ fn sixels_are_the_pixels_of_the_png_in_256_colours() {
         assert!(error < most, "{words}: {error}");
     }
     assert_eq!([0, 128, 255].map(percent), [0, 50, 100]);
-}
-
-#[test]
-fn into_a_pipe_auto_is_cells() {
-    let cells = sent(&format!("{WORDS} --once"), None);
-    assert_eq!(sent(&format!("{WORDS} --output auto"), None), cells);
-    let words = format!("{WORDS} --output ansi");
-    assert!(refusal(&run(words.split(' '))).contains("auto, cells, kitty, sixel, iterm2"));
 }

@@ -1,6 +1,7 @@
 //! The real program, run and its outcome checked.
 
 use rustix::process::Signal;
+use serde_json::Value;
 use std::ffi::OsStr;
 use std::fs;
 use std::io::Write;
@@ -22,6 +23,35 @@ pub(crate) fn run<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Ou
     spherule().args(arguments).output().expect("the program runs")
 }
 
+/// What it prints by these words.
+pub(crate) fn prints(words: &str) -> String {
+    printed(run(words.split_whitespace()))
+}
+
+/// The one line of JSON that it prints by these words.
+pub(crate) fn json(words: &str) -> Value {
+    let text = prints(words);
+    assert_eq!(text.lines().count(), 1, "{words}");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// The bytes that it writes to standard output by these words.
+pub(crate) fn writes(words: &str) -> Vec<u8> {
+    written(run(words.split_whitespace()))
+}
+
+/// The line by which it refuses these words.
+pub(crate) fn refuses(words: &str) -> String {
+    refusal(&run(words.split_whitespace()))
+}
+
+/// Runs it by a script of a shell, as `$0`; arguments can be added.
+pub(crate) fn by_script(script: &str) -> Command {
+    let mut command = Command::new("sh");
+    command.args(["-c", script]).arg(spherule().get_program());
+    command
+}
+
 /// Runs it with these words, and `input` on standard input.
 pub(crate) fn run_with_input(words: &str, input: &[u8]) -> Output {
     let mut child = spherule()
@@ -33,6 +63,15 @@ pub(crate) fn run_with_input(words: &str, input: &[u8]) -> Output {
         .expect("the program runs");
     // It may have seen enough before it has read everything.
     let _ = child.stdin.take().expect("piped").write_all(input);
+    child.wait_with_output().expect("the program ends")
+}
+
+/// Runs it with these words while no one reads what it prints.
+pub(crate) fn without_reader(words: &str) -> Output {
+    let mut command = spherule();
+    command.args(words.split_whitespace()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the program runs");
+    drop(child.stdout.take());
     child.wait_with_output().expect("the program ends")
 }
 
@@ -50,17 +89,31 @@ pub(crate) fn is_heard(signal: &Signal) -> bool {
     is_heard
 }
 
+/// The bytes that a successful run wrote to standard output.
+fn written(output: Output) -> Vec<u8> {
+    assert_eq!((output.status.code(), &*stderr(&output)), (Some(0), ""));
+    output.stdout
+}
+
 /// What a successful run printed.
-pub(crate) fn printed(output: &Output) -> String {
-    let stderr = String::from_utf8_lossy(&output.stderr);
-    assert_eq!((output.status.code(), stderr.as_ref()), (Some(0), ""));
-    String::from_utf8(output.stdout.clone()).expect("UTF-8")
+pub(crate) fn printed(output: Output) -> String {
+    String::from_utf8(written(output)).expect("UTF-8")
+}
+
+/// What a run said on stderr.
+pub(crate) fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("UTF-8")
 }
 
 /// The one line that an input error prints, after `spherule: `.
 pub(crate) fn refusal(output: &Output) -> String {
-    let stderr = String::from_utf8(output.stderr.clone()).expect("UTF-8");
-    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    line(output, 2)
+}
+
+/// The one line of a run that ends with this code.
+fn line(output: &Output, code: i32) -> String {
+    let stderr = stderr(output);
+    assert_eq!(output.status.code(), Some(code), "{stderr}");
     assert!(output.stdout.is_empty(), "something on stdout, and {stderr}");
     let message = stderr.strip_prefix("spherule: ").expect("the program's name");
     let line = message.strip_suffix('\n').expect("a line");
@@ -68,9 +121,21 @@ pub(crate) fn refusal(output: &Output) -> String {
     line.to_owned()
 }
 
+/// The one line of a failure that is no input error, after `spherule: `.
+pub(crate) fn failure(output: &Output) -> String {
+    line(output, 1)
+}
+
+/// Whether a picture has this size, such as `80x24`.
+pub(crate) fn is_of_size(picture: &str, size: &str) -> bool {
+    let (columns, rows) = size.split_once('x').expect("a size");
+    let is_whole = |line: &str| line.chars().count().to_string() == columns;
+    picture.lines().count().to_string() == rows && picture.lines().all(is_whole)
+}
+
 /// A file that is this test's own.
-pub(crate) fn file(name: &str, bytes: &[u8]) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+pub(crate) fn file(name: &str, bytes: impl AsRef<[u8]>) -> String {
+    let path = format!("{}/{name}", env!("CARGO_TARGET_TMPDIR"));
     fs::write(&path, bytes).expect("a writable folder");
     path
 }

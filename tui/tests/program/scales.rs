@@ -1,6 +1,6 @@
 //! A scene in metres of atoms' nuclei, or of galaxies, looks as it does in any other unit.
 
-use crate::run::{file, printed, run, run_with_input};
+use crate::run::{file, printed, prints, run_with_input};
 use spherule_referee::random::Random;
 
 /// Spheres as rows of a table, times 2^`exponent`.
@@ -22,7 +22,7 @@ fn powers_of_two_change_no_byte_of_a_picture() {
         "- --size 40x14 --charset block --color truecolor --orbit 20,70",
         "- --size 40x14 --projection parallel",
     ] {
-        let picture = |exponent| printed(&run_with_input(words, table(exponent).as_bytes()));
+        let picture = |exponent| printed(run_with_input(words, table(exponent).as_bytes()));
         let usual = picture(0);
         assert!(usual.chars().filter(|glyph| !glyph.is_whitespace()).count() > 100, "{usual}");
         for exponent in [-90, -65, -45, 30, 55, 70, 90] {
@@ -43,8 +43,8 @@ fn so_it_is_when_lit_from_a_place() {
         let scene = sphere([0.0, 0.0, 0.0], 1.0)
             + &sphere([1.5, 0.5, 0.75], 0.5)
             + &format!("[[light]]\nposition = {}\n", place([3.0, 4.0, 5.0]));
-        let path = file(&format!("lit{exponent}.toml"), scene.as_bytes());
-        printed(&run([path.as_os_str(), "--size".as_ref(), "40x14".as_ref()]))
+        let path = file(&format!("lit{exponent}.toml"), scene);
+        prints(&format!("{path} --size 40x14"))
     };
     let usual = picture(0);
     assert!(usual.chars().filter(|glyph| !glyph.is_whitespace()).count() > 100, "{usual}");

@@ -1,6 +1,6 @@
 //! Every structure, at every level, on any number of threads: the same files, byte for byte.
 
-use crate::run::{printed, refusal, run};
+use crate::run::prints;
 use crate::scenes::{camera, cloud, flake, hostile, inward, scattered};
 use crate::traced::{levels, traced};
 use spherule_kernel::Level;
@@ -41,6 +41,7 @@ fn the_same_files(name: &str, spheres: &[f32]) {
     }
 }
 
+// Apart, so that they run side by side.
 #[test]
 fn one_sphere() {
     the_same_files("one", &[0.0, 0.0, 0.0, 1.0]);
@@ -127,14 +128,6 @@ fn pairs_have_no_structure() {
         let found = traced("pairs-alone", &cloud(64, 3), &scattered(64), &words);
         assert_eq!(found.value("structure"), "brute");
     }
-    for choice in ["depth-list", "bvh"] {
-        let words = format!("trace --spheres s.npy --rays r.npy --pairs --structure {choice}");
-        let message = refusal(&run(words.split(' ')));
-        assert_eq!(
-            message,
-            format!("--pairs with --structure {choice}: pairs need no structure; auto or brute")
-        );
-    }
 }
 
 #[test]
@@ -154,8 +147,8 @@ fn the_build_is_timed() {
 fn pictures_are_the_same() {
     for scene in ["marbles", "edge", "flake", "caffeine"] {
         let picture = |tier: &str, more: &str| {
-            let words = format!("{scene} --accuracy {tier} --size 60x23 --color truecolor {more}");
-            printed(&run(words.split_whitespace()))
+            let words = format!("{scene} --accuracy {tier} --size 60x23 --color truecolor");
+            prints(&format!("{words} {more}"))
         };
         for tier in ["fast", "geometric", "stable", "exact"] {
             let expected = picture(tier, "--structure brute --threads 1");

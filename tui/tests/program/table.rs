@@ -1,6 +1,6 @@
 //! `--show table`: bars over a picture, whose numbers are those of `tradeoff`.
 
-use crate::run::{printed, run};
+use crate::run::{is_of_size, json, prints};
 use spherule_kernel::Tier;
 
 /// A row of a table: the tier, nanoseconds a ray, wrong rays in a million, ulp.
@@ -23,13 +23,8 @@ fn rows_of_table(text: &str) -> Vec<(String, f64, u64, Option<u64>)> {
 #[test]
 fn a_table_is_what_tradeoff_reports() {
     for words in ["edge --size 80x24", "far --size 90x30 --order object", "unit --size 70x20"] {
-        let run = |before: &[&str], after: &[&str]| {
-            let words = before.iter().copied().chain(words.split(' ')).chain(after.iter().copied());
-            printed(&run(words))
-        };
-        let report = run(&["tradeoff"], &["--json", "--threads", "1"]);
-        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
-        let text = run(&[], &["--once", "--show", "table", "--threads", "1"]);
+        let report = json(&format!("tradeoff {words} --json --threads 1"));
+        let text = prints(&format!("{words} --once --show table --threads 1"));
         assert!(text.is_ascii() && text.contains(", 1 thread "), "{text}");
         assert_eq!(text.contains("object order"), words.contains("object"), "{text}");
         let (table, tiers) = (rows_of_table(&text), report["tiers"].as_array().expect("a list"));
@@ -55,16 +50,14 @@ fn a_table_is_what_tradeoff_reports() {
 fn a_table_of_every_size_and_depth() {
     for size in ["1x1", "2x1", "61x14", "62x13", "200x9", "300x40"] {
         let (columns, rows) = size.split_once('x').expect("a size");
-        let (wide, high) = (columns.parse::<u32>().expect("n"), rows.parse::<u32>().expect("n"));
+        let [wide, high] = [columns, rows].map(|count| count.parse::<u32>().expect("n"));
         for (charset, color) in [("ascii", "never"), ("half", "16"), ("block", "truecolor")] {
-            let options =
-                format!("marbles --once --show table --charset {charset} --color {color}");
-            let text = printed(&run(format!("{options} --size {size}").split(' ')));
+            let options = format!("--charset {charset} --color {color} --size {size}");
+            let text = prints(&format!("marbles --once --show table {options}"));
             assert_eq!(text.lines().count().to_string(), rows);
             assert!(!text.contains('\x1b') || color != "never", "{size}");
             if charset == "ascii" {
-                assert!(text.is_ascii());
-                assert!(text.lines().all(|line| line.len().to_string() == columns), "{size}");
+                assert!(text.is_ascii() && is_of_size(&text, size), "{size}");
                 let fits = wide >= 62 && high >= 13;
                 assert_eq!(text.contains("ulp: logarithms"), fits, "{text}");
                 assert_eq!(text.contains("table needs"), !fits && wide > 20, "{text}");

@@ -1,11 +1,11 @@
 //! `spherule trace` against a scalar loop, and its refusals.
 
-use crate::run::{array, file, npy, refusal, run, spherule};
+use crate::run::{array, failure, file, npy, prints, refuses, run};
 use crate::scenes::inward;
-use crate::traced::traced;
+use crate::traced::{inputs, traced};
 use spherule_kernel::{Intersect, Ray, SphereList, Tier, Vec3};
 use spherule_referee::random::Random;
-use std::ffi::OsStr;
+use std::path::Path;
 
 /// 7 spheres and 101 rays (so that the last packet is not full), hostile ones among them.
 fn data() -> (Vec<f32>, Vec<f32>) {
@@ -102,35 +102,39 @@ fn a_single_sphere_by_hand() {
 /// What is said about this file of rays, after its name.
 fn refused(name: &str, bytes: &[u8]) -> String {
     // Tests run side by side: a file that two of them write is empty for a moment.
-    let spheres = file(&format!("{name}.s.npy"), &array(1, 4, &[0.0, 0.0, 0.0, 1.0]));
+    let spheres = file(&format!("{name}.s.npy"), array(1, 4, &[0.0, 0.0, 0.0, 1.0]));
     let rays = file(name, bytes);
-    let words = ["trace".as_ref(), "--spheres".as_ref(), spheres.as_os_str(), "--rays".as_ref()];
-    let message = refusal(&run(words.into_iter().chain([rays.as_os_str()])));
-    message.strip_prefix(&rays.display().to_string()).expect("the file's name").to_owned()
+    let message = refuses(&format!("trace --spheres {spheres} --rays {rays}"));
+    message.strip_prefix(&rays).expect("the file's name").to_owned()
 }
 
 #[test]
 fn arrays_that_are_none() {
-    let header = |descr: &str, order: &str, shape: &str| {
-        format!("{{'descr': {descr}, 'fortran_order': {order}, 'shape': {shape}, }}\n")
+    let header = |descr: &str, shape: &str| {
+        format!("{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}, }}\n")
     };
-    let good = header("'<f4'", "False", "(1, 8)");
-    let data = [0_u8; 32];
     assert_eq!(refused("magic.npy", b"not an array at all"), ": no .npy file");
     assert_eq!(refused("short.npy", b"\x93NUM"), ": no .npy file: it ends within its header");
     assert_eq!(refused("empty.npy", b""), ": no .npy file: it ends within its header");
-    let dtype = |name, descr| refused(name, &npy(&header(descr, "False", "(1, 8)"), &[0; 64]));
-    assert!(dtype("int.npy", "'<i4'").starts_with(": dtype '<i4', not float32"));
-    assert!(dtype("object.npy", "'|O'").starts_with(": dtype '|O', not float32"));
-    assert!(dtype("record.npy", "[('x', '<f4')]").starts_with(": dtype [('x', '<f4')"));
-    for (name, shape) in
-        [("flat", "(8,)"), ("cube", "(1, 8, 1)"), ("wide", "(1, 4)"), ("none", "()")]
-    {
-        let message =
-            refused(&format!("{name}.npy"), &npy(&header("'<f4'", "False", shape), &data));
+    for (name, descr, begin) in [
+        ("int.npy", "'<i4'", ": dtype '<i4', not float32"),
+        ("object.npy", "'|O'", ": dtype '|O', not float32"),
+        ("record.npy", "[('x', '<f4')]", ": dtype [('x', '<f4')"),
+    ] {
+        let message = refused(name, &npy(&header(descr, "(1, 8)"), &[0; 64]));
+        assert!(message.starts_with(begin), "{message}");
+    }
+    for (name, shape) in [
+        ("flat.npy", "(8,)"),
+        ("cube.npy", "(1, 8, 1)"),
+        ("wide.npy", "(1, 4)"),
+        ("none.npy", "()"),
+    ] {
+        let message = refused(name, &npy(&header("'<f4'", shape), &[0; 32]));
         assert!(message.starts_with(": shape ") && message.contains("not "), "{message}");
     }
-    let fewer = refused("fewer.npy", &npy(&good, &data[1..]));
+    let good = header("'<f4'", "(1, 8)");
+    let fewer = refused("fewer.npy", &npy(&good, &[0; 31]));
     assert_eq!(fewer, ": fewer bytes than the 32 of its shape (1, 8)");
     let more = refused("more.npy", &npy(&good, &[0; 33]));
     assert_eq!(more, ": more bytes than the 32 of its shape (1, 8)");
@@ -159,39 +163,18 @@ fn a_header_that_lies_about_its_shape_or_length() {
 #[test]
 fn rays_and_spheres_that_do_not_fit() {
     let (spheres, rays) = data();
-    let spheres = file("unpaired.s.npy", &array(7, 4, &spheres));
-    let rays = file("unpaired.r.npy", &array(101, 8, &rays));
-    let words = ["trace".as_ref(), "--pairs".as_ref(), "--spheres".as_ref(), spheres.as_os_str()];
-    let message = refusal(&run(words.into_iter().chain(["--rays".as_ref(), rays.as_os_str()])));
+    let message = refuses(&format!("trace --pairs {}", inputs("unpaired", &spheres, &rays)));
     assert!(message.ends_with("101 rays, 7 spheres; --pairs needs as many of each"), "{message}");
-    assert!(refusal(&run(["trace", "--rays", "r.npy"])).contains("--spheres"));
-    let both = "trace --spheres s --rays r --any --out-t t".split(' ');
-    assert!(refusal(&run(both)).contains("cannot be used with"));
-    // The times of all passes are kept.
-    for repeat in ["0", "1000001", "4294967295"] {
-        let words = ["trace", "--spheres", "s", "--rays", "r", "--repeat", repeat];
-        assert!(refusal(&run(words)).contains("1..=1000000"), "{repeat}");
-    }
-    let missing = "trace --spheres no-such.npy --rays r.npy".split(' ');
-    assert_eq!(refusal(&run(missing)), "no-such.npy: no such file or directory");
 }
 
 #[test]
 fn an_output_that_cannot_be_written_is_a_failure() {
     let (spheres, rays) = data();
-    let spheres = file("unwritable.s.npy", &array(7, 4, &spheres));
-    let rays = file("unwritable.r.npy", &array(101, 8, &rays));
+    let inputs = inputs("unwritable", &spheres, &rays);
     for target in ["/dev/full", "no/such/folder/t.npy"] {
-        let output = spherule()
-            .args(["trace", "--out-t", target, "--spheres"])
-            .arg(&spheres)
-            .arg("--rays")
-            .arg(&rays)
-            .output()
-            .expect("the program runs");
-        let stderr = String::from_utf8_lossy(&output.stderr);
-        assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0), "{stderr}");
-        assert!(stderr.starts_with(&format!("spherule: {target}: ")), "{stderr}");
+        let words = format!("trace --out-t {target} {inputs}");
+        let message = failure(&run(words.split(' ')));
+        assert!(message.starts_with(&format!("{target}: ")), "{message}");
     }
 }
 
@@ -199,40 +182,30 @@ fn an_output_that_cannot_be_written_is_a_failure() {
 #[test]
 fn an_output_is_no_half_of_two_and_not_standard_output() {
     let (spheres, rays) = data();
-    let spheres = file("halves.s.npy", &array(7, 4, &spheres));
-    let rays = file("halves.r.npy", &array(101, 8, &rays));
-    let t = file("halves.t.npy", b"before");
-    let written = |outputs: [&OsStr; 4]| {
-        let mut command = spherule();
-        command.arg("trace").args(outputs).arg("--spheres").arg(&spheres).arg("--rays").arg(&rays);
-        command.output().expect("the program runs")
-    };
-    let (out_t, out_id) = (OsStr::new("--out-t"), OsStr::new("--out-id"));
-    let (stdout, nowhere) = (OsStr::new("-"), OsStr::new("no/such/i.npy"));
-    let failed = written([out_t, t.as_os_str(), out_id, nowhere]);
+    let inputs = inputs("halves", &spheres, &rays);
+    let t = file("halves.t.npy", "before");
+    let words =
+        |out_t: &str, out_id: &str| format!("trace --out-t {out_t} --out-id {out_id} {inputs}");
+    let failed = run(words(&t, "no/such/i.npy").split(' '));
     assert_eq!(failed.status.code(), Some(1));
-    for (option, outputs) in [
-        ("--out-t", [out_t, stdout, out_id, nowhere]),
-        ("--out-id", [out_t, t.as_os_str(), out_id, stdout]),
-    ] {
-        let message = refusal(&written(outputs));
-        assert_eq!(message, format!("{option} -: standard output has the report; name a file"));
+    let message = "-: standard output has the report; name a file";
+    assert_eq!(refuses(&words("-", "no/such/i.npy")), format!("--out-t {message}"));
+    assert_eq!(refuses(&words(&t, "-")), format!("--out-id {message}"));
+    let folder = Path::new(&t).parent().expect("a folder").display();
+    for again in
+        [t.clone(), format!("{folder}/./halves.t.npy"), format!("{folder}/.//halves.t.npy")]
+    {
+        let message = refuses(&words(&t, &again));
+        assert_eq!(message, format!("--out-id {again}: --out-t has that file; name another"));
     }
-    let folder = t.parent().expect("a folder");
-    for again in [t.clone(), folder.join("./halves.t.npy"), folder.join(".//halves.t.npy")] {
-        let message = refusal(&written([out_t, t.as_os_str(), out_id, again.as_os_str()]));
-        let what = "--out-t has that file; name another";
-        assert_eq!(message, format!("--out-id {}: {what}", again.display()));
-    }
-    for (option, input) in [("--spheres", &spheres), ("--rays", &rays)] {
-        let before = std::fs::read(input).expect("a file");
-        let message = refusal(&written([out_t, t.as_os_str(), out_id, input.as_os_str()]));
+    for (option, input) in [("--spheres", "halves.s.npy"), ("--rays", "halves.r.npy")] {
+        let input = format!("{folder}/{input}");
+        let before = std::fs::read(&input).expect("a file");
         let what = format!("{option} is read from that file; name another");
-        assert_eq!(message, format!("--out-id {}: {what}", input.display()));
-        assert!(std::fs::read(input).expect("a file") == before);
+        assert_eq!(refuses(&words(&t, &input)), format!("--out-id {input}: {what}"));
+        assert!(std::fs::read(&input).expect("a file") == before);
     }
-    let null = OsStr::new("/dev/null");
-    assert!(written([out_t, null, out_id, null]).status.success());
+    prints(&words("/dev/null", "/dev/null"));
     assert_eq!(std::fs::read(&t).expect("a file"), b"before");
 }
 
@@ -251,36 +224,26 @@ fn arrays_of_numpy_s_own_kinds() {
                     "True" => index % rows * width + index / rows,
                     _ => index,
                 };
-                let value = |index: usize| {
+                let bytes = (0..values.len()).flat_map(|index| {
                     let value = values[place(index)];
-                    let mut bytes = if size == 8 {
-                        f64::from(value).to_le_bytes().to_vec()
-                    } else {
-                        value.to_le_bytes().to_vec()
+                    let mut bytes = match size {
+                        8 => f64::from(value).to_le_bytes().to_vec(),
+                        _ => value.to_le_bytes().to_vec(),
                     };
                     if is_big {
                         bytes.reverse();
                     }
                     bytes
-                };
+                });
                 let header = format!(
                     "{{'descr': '{descr}', 'fortran_order': {order}, 'shape': ({rows}, {width}), }}\n"
                 );
-                npy(&header, &(0..values.len()).flat_map(value).collect::<Vec<u8>>())
+                npy(&header, &bytes.collect::<Vec<u8>>())
             };
             let name = format!("kind{size}{is_big}{order}");
-            let (s, r) = (
-                file(&format!("{name}.s.npy"), &array(&spheres, 4)),
-                file(&format!("{name}.r.npy"), &array(&rays, 8)),
-            );
-            let words = [
-                "trace".as_ref(),
-                "--spheres".as_ref(),
-                s.as_os_str(),
-                "--rays".as_ref(),
-                r.as_os_str(),
-            ];
-            let found = crate::run::printed(&run(words));
+            let s = file(&format!("{name}.s.npy"), array(&spheres, 4));
+            let r = file(&format!("{name}.r.npy"), array(&rays, 8));
+            let found = prints(&format!("trace --spheres {s} --rays {r}"));
             assert_eq!(hits(&found), hits(&expected), "{name}");
         }
     }

@@ -1,8 +1,7 @@
 //! `spherule trace`, run on spheres and rays.
 
-use crate::run::{array, file, printed, run};
+use crate::run::{array, file, prints};
 use spherule_kernel::{Level, LevelName};
-use std::ffi::OsStr;
 
 /// What a run of `trace` leaves behind.
 #[derive(Clone)]
@@ -15,18 +14,18 @@ pub(crate) struct Traced {
 
 /// Runs `trace` with `words`; `name` is that of its files, since tests run side by side.
 pub(crate) fn traced(name: &str, spheres: &[f32], rays: &[f32], words: &str) -> Traced {
-    let spheres = file(&format!("{name}.s.npy"), &array(spheres.len() / 4, 4, spheres));
-    let rays = file(&format!("{name}.r.npy"), &array(rays.len() / 8, 8, rays));
-    let outputs = ["t", "i"].map(|output| file(&format!("{name}.{output}.npy"), b""));
-    let mut arguments = vec!["trace".as_ref(), "--spheres".as_ref(), spheres.as_os_str()];
-    arguments.extend(["--rays".as_ref(), rays.as_os_str()]);
-    if !words.contains("--any") {
-        arguments.extend(["--out-t".as_ref(), outputs[0].as_os_str()]);
-    }
-    arguments.extend(["--out-id".as_ref(), outputs[1].as_os_str()]);
-    arguments.extend(words.split_whitespace().map(OsStr::new));
-    let text = printed(&run(arguments));
-    Traced { text, files: outputs.map(|path| std::fs::read(path).expect("an output")) }
+    let inputs = inputs(name, spheres, rays);
+    let [t, id] = ["t", "i"].map(|output| file(&format!("{name}.{output}.npy"), b""));
+    let out_t = if words.contains("--any") { String::new() } else { format!("--out-t {t}") };
+    let text = prints(&format!("trace {inputs} {out_t} --out-id {id} {words}"));
+    Traced { text, files: [t, id].map(|path| std::fs::read(path).expect("an output")) }
+}
+
+/// The words that name files of spheres and rays.
+pub(crate) fn inputs(name: &str, spheres: &[f32], rays: &[f32]) -> String {
+    let spheres = file(&format!("{name}.s.npy"), array(spheres.len() / 4, 4, spheres));
+    let rays = file(&format!("{name}.r.npy"), array(rays.len() / 8, 8, rays));
+    format!("--spheres {spheres} --rays {rays}")
 }
 
 impl Traced {

@@ -1,10 +1,11 @@
 //! Files that are written whole or not at all: several at once, and one in place of another.
 
-use crate::run::{folder, is_heard, names, printed, refusal, run, spherule};
+use crate::run::{
+    folder, is_heard, names, prints, refusal, refuses, run, spherule, stderr, writes,
+};
 use rustix::process::{
     Gid, Pid, Resource, Rlimit, Signal, getgroups, getrlimit, kill_process, setrlimit,
 };
-use std::ffi::OsStr;
 use std::fs::{self, File, Permissions};
 use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
 use std::os::unix::process::ExitStatusExt;
@@ -56,8 +57,8 @@ fn a_file_that_is_replaced_keeps_its_group() {
         return;
     };
     fs::set_permissions(&file, Permissions::from_mode(0o660)).expect("the owner's file");
-    let output = run(["unit".as_ref(), "--png".as_ref(), file.as_os_str()]);
-    assert_eq!((&*printed(&output), group()), ("", other));
+    assert_eq!(prints(&format!("unit --png {}", file.display())), "");
+    assert_eq!(group(), other);
     assert_eq!(fs::metadata(&file).expect("a file").permissions().mode() & 0o777, 0o660);
 }
 
@@ -65,7 +66,8 @@ fn a_file_that_is_replaced_keeps_its_group() {
 #[test]
 fn a_scene_is_not_replaced_by_its_picture() {
     let folder = folder("whole-scene");
-    let [scene, points, link] = ["s.toml", "p.txt", "link.png"].map(|name| folder.join(name));
+    let [scene, points, link] =
+        ["s.toml", "p.txt", "link.png"].map(|name| folder.join(name).display().to_string());
     let files = [
         (&scene, "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n"),
         (&points, "0.5,1.5,2.5\n3,4,5\n"),
@@ -74,33 +76,24 @@ fn a_scene_is_not_replaced_by_its_picture() {
         fs::write(file, text).expect("a writable folder");
     }
     symlink("s.toml", &link).expect("a link");
-    let shown = |scene: &Path, option: &str, file: &Path| {
-        let sizes = ["--size", "8x4", option].map(OsStr::new);
-        run([scene.as_os_str()].into_iter().chain(sizes).chain([file.as_os_str()]))
-    };
-    let unit = Path::new("unit");
     for option in ["--png", "--cast"] {
-        for (scene, file, what) in [
+        for (shown, file, what) in [
             (&*scene, &*scene, "the scene is read from that file"),
             (&*scene, &*link, "the scene is read from that file"),
-            (unit, &*scene, "it is a scene (toml)"),
-            (unit, &*link, "it is a scene (toml)"),
-            (unit, &*points, "it is a scene (csv)"),
+            ("unit", &*scene, "it is a scene (toml)"),
+            ("unit", &*link, "it is a scene (toml)"),
+            ("unit", &*points, "it is a scene (csv)"),
         ] {
-            let message = refusal(&shown(scene, option, file));
-            assert!(
-                message.starts_with(&format!("{option} {}: {what}", file.display())),
-                "{message}"
-            );
+            let message = refuses(&format!("{shown} --size 8x4 {option} {file}"));
+            assert!(message.starts_with(&format!("{option} {file}: {what}")), "{message}");
         }
     }
     for (file, text) in files {
         assert_eq!(fs::read_to_string(file).expect("a file"), text);
     }
-    let recording = folder.join("a.cast");
+    let recording = folder.join("a.cast").display().to_string();
     for _ in 0..2 {
-        let words = ["unit", "--size", "8x4", "--frames", "2", "--cast"].map(OsStr::new);
-        assert_eq!(printed(&run(words.into_iter().chain([recording.as_os_str()]))), "");
+        assert_eq!(prints(&format!("unit --size 8x4 --frames 2 --cast {recording}")), "");
     }
 }
 
@@ -111,9 +104,8 @@ fn the_name_of_a_folder_is_no_file() {
     let text = "1\n\nH 0 0 0\n";
     fs::write(folder.join("other.xyz"), text).expect("a writable folder");
     for name in ["pictures/", "pictures/.", "other.xyz/"] {
-        let file = folder.join(name);
-        let output = run([OsStr::new("unit"), OsStr::new("--png"), file.as_os_str()]);
-        let message = String::from_utf8_lossy(&output.stderr);
+        let output = run(format!("unit --png {}/{name}", folder.display()).split(' '));
+        let message = stderr(&output);
         assert!(!output.status.success() && message.contains("not a directory"), "{message}");
         assert_eq!(names(&folder), ["other.xyz"], "{name}");
     }
@@ -123,53 +115,41 @@ fn the_name_of_a_folder_is_no_file() {
 /// It has a name, but no place.
 #[test]
 fn a_pipe_by_its_name_takes_a_picture() {
-    let output = run(["unit", "--size", "8x4", "--png", "/dev/stdout"]);
-    assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
-    assert!(output.stdout.starts_with(b"\x89PNG"));
+    assert!(writes("unit --size 8x4 --png /dev/stdout").starts_with(b"\x89PNG"));
     let rays = folder("whole-pipe").join("r.npy");
-    let words = ["cases", "--count", "2", "--out-spheres", "/dev/stdout", "--out-rays"];
-    let output = run(words.map(OsStr::new).into_iter().chain([rays.as_os_str()]));
-    assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
-    assert!(output.stdout.starts_with(b"\x93NUMPY") && rays.is_file());
+    let words = format!("cases --count 2 --out-spheres /dev/stdout --out-rays {}", rays.display());
+    assert!(writes(&words).starts_with(b"\x93NUMPY") && rays.is_file());
 }
 
 #[test]
 fn two_outputs_are_not_one() {
     let folder = folder("whole-twice");
-    let (file, link) = (folder.join("a.npy"), folder.join("link.npy"));
+    let [file, link, taken] =
+        ["a.npy", "link.npy", "stdout"].map(|name| folder.join(name).display().to_string());
     symlink("a.npy", &link).expect("a link");
-    let written = |spheres: &Path, rays: &Path| {
-        let mut command = spherule();
-        command.args(["cases", "--count", "10", "--out-spheres"]).arg(spheres);
-        command.arg("--out-rays").arg(rays).output().expect("the program runs")
+    let words = |spheres: &str, rays: &str| {
+        format!("cases --count 10 --out-spheres {spheres} --out-rays {rays}")
     };
-    let (stdout, null) = (Path::new("-"), Path::new("/dev/null"));
-    for (spheres, rays) in [(&*file, &*file), (&*file, &*link), (&*link, &*file), (stdout, stdout)]
-    {
-        let message = refusal(&written(spheres, rays));
+    for (spheres, rays) in [(&*file, &*file), (&*file, &*link), (&*link, &*file), ("-", "-")] {
         let what = "--out-spheres has that file; name another";
-        assert_eq!(message, format!("--out-rays {}: {what}", rays.display()));
+        assert_eq!(refuses(&words(spheres, rays)), format!("--out-rays {rays}: {what}"));
     }
     assert_eq!(names(&folder), ["link.npy"]);
-    assert!(written(null, null).status.success());
+    prints(&words("/dev/null", "/dev/null"));
     // Nor is standard output by its name, or by the name of its file, another one.
-    let taken = folder.join("stdout");
-    let into_taken = |words: &str, output: &Path| {
+    let into_taken = |words: &str| {
         let mut command = spherule();
-        command.args(words.split(' ')).arg(output);
-        command.stdout(File::create(&taken).expect("a writable folder"));
+        command.args(words.split(' ')).stdout(File::create(&taken).expect("a writable folder"));
         refusal(&command.output().expect("the program runs"))
     };
-    for output in [Path::new("/dev/stdout"), &*taken] {
-        let cases = "cases --count 2 --out-rays - --out-spheres";
-        let message = into_taken(cases, output);
+    for output in ["/dev/stdout", &*taken] {
+        let message = into_taken(&format!("cases --count 2 --out-rays - --out-spheres {output}"));
         assert!(message.ends_with("has that file; name another"), "{message}");
-        let message = into_taken("trace --spheres no.npy --rays no.npy --out-t", output);
+        let trace = format!("trace --spheres no.npy --rays no.npy --out-t {output}");
         let what = "standard output has the report; name a file";
-        assert_eq!(message, format!("--out-t {}: {what}", output.display()));
+        assert_eq!(into_taken(&trace), format!("--out-t {output}: {what}"));
     }
-    fs::remove_file(&taken).expect("a file");
     // A link to no file leads to the new one.
-    let output = written(&link, null);
-    assert!(output.status.success() && link.is_symlink() && file.is_file());
+    prints(&words(&link, "/dev/null"));
+    assert!(Path::new(&link).is_symlink() && Path::new(&file).is_file());
 }
