@@ -5,7 +5,7 @@ use spherule_kernel::{Exact, Hit, Intersect, Ray, Sphere, SphereTree, Tier, Vec3
 use spherule_referee::random::Random;
 use spherule_tests::campaign::on_all_cores;
 use spherule_tests::oracle;
-use spherule_tests::variants::{Memory, bits, variants, viewpoint_of};
+use spherule_tests::variants::{assert_hits, bits};
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -13,14 +13,7 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 /// closest does not have the lowest index.
 fn check(spheres: &[Sphere], rays: &[Ray]) -> usize {
     let expected: Vec<_> = rays.iter().map(|ray| oracle::closest(ray, spheres)).collect();
-    Memory::new(spheres).sorted(viewpoint_of(rays), |structures| {
-        for variant in variants().filter(|variant| variant.tier == Tier::Exact) {
-            let answers = variant.ask(structures, rays);
-            for (ray, (hit, expected)) in rays.iter().zip(answers.hits.iter().zip(&expected)) {
-                assert_eq!(bits(*hit), bits(*expected), "{variant:?}, {ray:?} of {spheres:?}");
-            }
-        }
-    });
+    assert_hits(&expected, rays, spheres, &|variant| variant.tier == Tier::Exact);
     let lowest = |hit: Hit, ray: &Ray| {
         let at = |sphere| oracle::intersect(ray, sphere) == Some(hit.t);
         spheres.iter().position(at) == Some(hit.sphere as usize)

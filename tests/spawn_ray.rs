@@ -1,7 +1,9 @@
 //! Spawned rays: where they start, and that they miss their sphere there.
 
+mod inside;
 mod limits;
 mod shadows;
+mod until;
 
 use spherule_kernel::{
     Exact, Intersect, Ray, Side, Sphere, SphereList, Surface, Tier, Vec3, roots, side, surface,
@@ -9,15 +11,13 @@ use spherule_kernel::{
 use spherule_referee::random::{Random, power_of_two};
 use spherule_referee::ulp::step;
 use spherule_tests::campaign::on_all_cores;
-use spherule_tests::oracle::{self, units, units3};
+use spherule_tests::oracle;
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// The side in integers.
 fn true_side(point: Vec3, sphere: &Sphere) -> Option<Side> {
-    let (x, c, r) = (units3(point), units3(sphere.center), units(sphere.radius));
-    let q = [0, 1, 2].map(|i| &x[i] - &c[i]);
-    match oracle::dot(&q, &q).cmp(&(&r * &r)) {
+    match oracle::side(point, sphere) {
         Ordering::Less => Some(Side::Inside),
         Ordering::Equal => None,
         Ordering::Greater => Some(Side::Outside),
@@ -90,6 +90,17 @@ fn hit(tier: Tier, ray: &Ray, sphere: &Sphere) -> Option<Surface> {
     (near >= 0.0).then(|| surface(tier, ray, near, sphere))
 }
 
+/// The normal on a side.
+fn outward(surface: &Surface, to: Side) -> Vec3 {
+    if to == Side::Outside { surface.normal } else { -surface.normal }
+}
+
+/// The ray that `Exact` spawns.
+#[track_caller]
+fn spawn(surface: &Surface, sphere: &Sphere, to: Side, direction: Vec3) -> Ray {
+    surface.spawn_ray(Exact, sphere, to, direction).expect("an origin")
+}
+
 /// A direction to the side of `normal`, of any angle and length, nearly along the surface often.
 fn departing(random: &mut Random, normal: Vec3) -> Vec3 {
     let across = normal.cross(random.direction()).normalize_or(random.direction());
@@ -112,9 +123,8 @@ fn origins_are_within_two_steps_of_the_point() {
         let (ray, sphere) = view(&mut random);
         let Some(surface) = hit(Tier::Exact, &ray, &sphere) else { continue };
         for to in [Side::Outside, Side::Inside] {
-            let outward = if to == Side::Outside { surface.normal } else { -surface.normal };
-            let direction = departing(&mut random, outward);
-            let left = surface.spawn_ray(Exact, &sphere, to, direction).expect("an origin");
+            let direction = departing(&mut random, outward(&surface, to));
+            let left = spawn(&surface, &sphere, to, direction);
             assert_eq!((left.direction, left.t_max), (direction, f32::INFINITY));
             assert_eq!(true_side(left.origin, &sphere), Some(to), "{ray:?} {sphere:?}");
             // The height over the surface, and how far from the point, whose coordinates are half an ulp of r off.
@@ -155,8 +165,7 @@ fn a_ray_that_hardly_goes_back_starts_higher() {
         let back = 2_f32.powf(random.between(-24.0, -20.0));
         let across = surface.normal.cross(random.direction()).normalize_or(Vec3::X);
         let direction = across - back * surface.normal;
-        let spawned = surface.spawn_ray(Exact, &sphere, Side::Outside, direction);
-        let spawned = spawned.expect("an origin");
+        let spawned = spawn(&surface, &sphere, Side::Outside, direction);
         let r = f64::from(radius);
         let height = (spawned.origin.as_dvec3() - sphere.center.as_dvec3()).length() - r;
         let over = (height - 2.0 * spacing(spawned.origin)) / r;
@@ -183,7 +192,7 @@ fn spawned_rays_miss(tier: Tier, seed: u64, count: u32) -> u32 {
         let Some(surface) = hit(tier, &ray, &sphere) else { continue };
         let list = SphereList::from([sphere]);
         for to in [Side::Outside, Side::Inside] {
-            let outward = if to == Side::Outside { surface.normal } else { -surface.normal };
+            let outward = outward(&surface, to);
             let direction = departing(&mut random, outward);
             let spawned = if random.one_in(4) {
                 let target = surface.point + sphere.center + direction;
@@ -252,66 +261,6 @@ fn hit_of(
     (surface(tier, &ray, hit.t, &sphere), sphere)
 }
 
-/// An origin may be so shallow that the far side lies before the interval, or that a tier sees no sphere at all.
-#[test]
-fn inside_rays_along_the_surface_meet_its_far_side() {
-    let rows = [
-        (
-            Tier::Fast,
-            [-1.382_462_9, -0.194_582_15, 1.309_370_3],
-            [2.231_936_2, 0.548_219_7, -1.780_551_7],
-            [1.0, 0.75, -0.25, 1.0],
-            [0.474_673_78, -0.827_725_47, -0.299_258_1],
-        ),
-        (
-            Tier::Exact,
-            [-1.161_875e-6, 9.0, 1.890_108_7e-4],
-            [0.0, -1.0, 0.0],
-            [3.0, -4.0, 0.0, 5.0],
-            [-1.598_109_7, -1.198_578_4, -0.097_122_85],
-        ),
-        // By cancellation, both roots are zero.
-        (
-            Tier::Fast,
-            [0.003_000_3, 10.0, 0.0],
-            [0.0, -1.0, 0.0],
-            [0.0, -1000.0, 0.0, 1000.0],
-            [1.0, -3.000_3e-6, 0.0],
-        ),
-    ];
-    for (tier, origin, direction, sphere, inwards) in rows {
-        let (surface, sphere) = hit_of(tier, origin, direction, sphere);
-        let spawned = surface.spawn_ray(tier, &sphere, Side::Inside, inwards.into());
-        let spawned = spawned.expect("an origin");
-        let hit = SphereList::from([sphere]).closest_hit(tier, &spawned);
-        assert!(hit.is_some(), "{tier:?} {spawned:?}");
-    }
-}
-
-/// Outwards, the far side is no farther than the origin is deep, which near the coordinates' zero is as little as the interval's start.
-#[test]
-fn inside_rays_of_any_direction_meet_the_far_side() {
-    let mut random = Random::seeded(53);
-    let mut shallow = 0;
-    for _ in 0..4000 {
-        let sphere = {
-            let side = random.between(1.0, 2.0);
-            let center = -side * (Vec3::ONE + random.in_cube(1e-6));
-            Sphere { center, radius: center.length() }
-        };
-        let towards = -sphere.center;
-        let Some(surface) = hit(Tier::Exact, &Ray::new(2.0 * towards, -towards), &sphere) else {
-            continue;
-        };
-        let spawned = surface.spawn_ray(Exact, &sphere, Side::Inside, Vec3::ONE);
-        let spawned = spawned.expect("an origin");
-        let hit = SphereList::from([sphere]).closest_hit(Exact, &spawned);
-        let hit = hit.unwrap_or_else(|| panic!("{spawned:?} {sphere:?}"));
-        shallow += u32::from(hit.t < 2.0 * spawned.t_min);
-    }
-    assert!(shallow > 100, "{shallow}");
-}
-
 /// A path tracer turns normals towards the ray that came.
 #[test]
 fn a_turned_normal_changes_no_ray() {
@@ -326,100 +275,5 @@ fn a_turned_normal_changes_no_ray() {
             [surface, turned].map(|surface| surface.spawn_ray(Exact, &sphere, to, direction));
         assert!(spawned.is_some());
         assert_eq!(spawned, of_turned);
-    }
-}
-
-#[test]
-fn a_shadow_ray_until_its_light_is_not_shadowed_by_it() {
-    let (ground, light) =
-        (Sphere::from([0.0, -1000.0, 0.0, 1000.0]), Sphere::from([0.0, 5.0, 0.0, 1.0]));
-    let mut random = Random::seeded(41);
-    let mut shadowed = 0;
-    for tier in [Tier::Exact, Tier::Stable, Tier::Fast, Tier::Geometric] {
-        let scene = SphereList::from([ground, light]);
-        for _ in 0..2000 {
-            let at = 3.0 * random.in_cube(1.0);
-            let down = Ray::new(Vec3::new(at.x, 3.0, at.z), Vec3::NEG_Y);
-            let Some(surface) = hit(tier, &down, &ground) else { continue };
-            let target = light.center + random.direction();
-            let ray =
-                surface.spawn_ray_to(tier, &ground, Side::Outside, target).expect("an origin");
-            shadowed += u32::from(scene.any_hit(tier, &ray));
-            assert!(!scene.any_hit(tier, &ray.until(tier, &light)), "{tier:?} {ray:?}");
-            // Another sphere before it is still met.
-            let between = Sphere { center: ray.at(0.5), radius: 0.1 };
-            let until = ray.until(tier, &light);
-            assert!(SphereList::from([ground, light, between]).any_hit(tier, &until));
-        }
-    }
-    assert!(shadowed > 4000, "{shadowed}");
-}
-
-/// Where squares underflow, `Stable` may have its far root before the near one.
-#[test]
-fn roots_in_the_wrong_order_end_a_ray_before_both() {
-    let sphere = Sphere {
-        center: Vec3::new(6.498_219_4e-21, 2.398_493_6e-21, 1.060_833_8e-19),
-        radius: 3.150_952e-21,
-    };
-    let ray = Ray::new(
-        Vec3::new(6.537_744e-21, 5.254_173_7e-21, 1.047_522_1e-19),
-        Vec3::new(0.562_677, 0.063_356_61, 0.165_813_61),
-    );
-    let [near, far] = roots(Tier::Stable, &ray, &sphere).expect("a hit");
-    assert!(far < near, "{near:e} {far:e}");
-    let until = ray.until(Tier::Stable, &sphere);
-    assert!(!SphereList::from([sphere]).any_hit(Tier::Stable, &until), "{until:?}");
-}
-
-#[test]
-fn a_root_that_is_infinite_ends_no_ray() {
-    let ray = Ray {
-        t_min: f32::NEG_INFINITY,
-        ..Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, power_of_two(-126) as f32))
-    };
-    let around = Sphere::from([0.0, 0.0, -9.0, 10.0]);
-    assert_eq!(roots(Exact, &ray, &around).map(|[near, _]| near), Some(f32::NEG_INFINITY));
-    let until = ray.until(Exact, &around);
-    assert_eq!(until.t_min, f32::NEG_INFINITY);
-    assert_eq!(until.t_max, (power_of_two(126) as f32).next_down());
-    let endless = Sphere::from([0.0, 0.0, 0.0, 10.0]);
-    assert_eq!(ray.until(Exact, &endless), ray);
-}
-
-#[test]
-fn what_has_no_such_origin_is_none() {
-    // Smaller than the spacing of numbers at its place: only its centre is inside.
-    let sphere = Sphere { center: Vec3::splat(1e7), radius: 0.25 };
-    let ray = Ray::new(Vec3::new(1e7, 1e7, 0.0), Vec3::Z);
-    let surface = hit(Tier::Exact, &ray, &sphere).expect("a hit");
-    let left = surface.spawn_ray(Exact, &sphere, Side::Inside, Vec3::Z).expect("an origin");
-    assert_eq!(left.origin, sphere.center);
-    let left = surface.spawn_ray(Exact, &sphere, Side::Outside, -Vec3::Z).expect("an origin");
-    assert_eq!(true_side(left.origin, &sphere), Some(Side::Outside));
-
-    // Past the end of numbers.
-    let sphere = Sphere { center: Vec3::new(0.0, 0.0, f32::MAX), radius: f32::MAX };
-    let surface = spherule_kernel::surface(Exact, &Ray::new(Vec3::ZERO, Vec3::Z), 0.0, &sphere);
-    assert!(surface.spawn_ray(Exact, &sphere, Side::Outside, -Vec3::Z).is_some());
-
-    // A point sphere: nothing is inside, and a ray starts beside it.
-    let sphere = Sphere { center: Vec3::Z, radius: 0.0 };
-    let surface = hit(Tier::Exact, &Ray::new(Vec3::ZERO, Vec3::Z), &sphere).expect("a hit");
-    assert_eq!(surface.spawn_ray(Exact, &sphere, Side::Inside, Vec3::Z), None);
-    let left = surface.spawn_ray(Exact, &sphere, Side::Outside, -Vec3::Z).expect("an origin");
-    assert!(!SphereList::from([sphere]).any_hit(Exact, &left));
-
-    // Invalid input returns, with any result.
-    for bits in [0x7fc0_0000, 0x7f80_0000, 0xff80_0000, 0x7f7f_ffff, 1, 0x8000_0001] {
-        let bad = f32::from_bits(bits);
-        let sphere = Sphere { center: Vec3::splat(bad), radius: bad };
-        let ray = Ray::new(Vec3::splat(bad), Vec3::splat(bad));
-        let surface = spherule_kernel::surface(Exact, &ray, bad, &sphere);
-        for to in [Side::Outside, Side::Inside] {
-            if let Some(left) = surface.spawn_ray(Exact, &sphere, to, Vec3::splat(bad)) {
-                assert_eq!(side(left.origin, &sphere), Some(to));
-            }
-        }
     }
 }

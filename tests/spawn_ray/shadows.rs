@@ -1,6 +1,6 @@
 //! Shadows, in crowds of spheres, against integers; packets of shadow rays against one ray at a time.
 
-use super::departing;
+use super::{departing, outward, spawn};
 use spherule_kernel::{
     Exact, Intersect, Ray, Side, Sphere, SphereList, Tier, Towards, Vec3, side, surface,
 };
@@ -56,9 +56,8 @@ fn shadows(seed: u64, rays_a_place: u32) -> [u32; 2] {
             let sphere = spheres[hit.sphere as usize];
             let surface = surface(Exact, &ray, hit.t, &sphere);
             let to = surface.incident_side(ray.direction);
-            let outward = if to == Side::Inside { -surface.normal } else { surface.normal };
-            let direction = departing(&mut random, outward);
-            let spawned = surface.spawn_ray(Exact, &sphere, to, direction).expect("an origin");
+            let direction = departing(&mut random, outward(&surface, to));
+            let spawned = spawn(&surface, &sphere, to, direction);
             let others = spheres.iter().enumerate();
             let occluded = others
                 .filter(|&(index, _)| index != hit.sphere as usize || to == Side::Inside)
@@ -159,40 +158,33 @@ fn so_they_are_to_a_light_beside_the_surface() {
     assert!(left > 1000, "{left}");
 }
 
-/// From inside to a light that is nearer than the origin is deep: the way turns out through the surface, whose far side would lie
-/// before the interval.
-#[test]
-fn so_they_are_from_inside_to_a_light_within_a_step() {
-    let list = SphereList::from([[0.0, 0.0, 1.0, 1.0]]);
-    let rays = [Ray::new(Vec3::Z, Vec3::NEG_Z)];
-    let step = 2_f32.powi(-47);
-    for aside in [0.5, 1.0, 2.0, 64.0] {
-        let light = step * Vec3::new(aside, 0.0, 0.125);
-        assert!(assert_as_one_ray(&list, &rays, Towards::Point(light)) > 0, "{light}");
-    }
-}
-
-/// So they are along the surface from an origin that is shallow: near the coordinates' zero, with a light towards which the normal faces by
-/// its rounding alone.
+/// Without more depth, the far side would lie before the interval.
 #[test]
 fn so_they_are_from_inside_where_the_far_side_is_before_the_interval() {
-    for (sphere, origin, direction, light) in [
+    // To a light that is nearer than the origin is deep: the way turns out through the surface.
+    let within_a_step = [0.5, 1.0, 2.0, 64.0].map(|aside| {
+        let light = 2_f32.powi(-47) * Vec3::new(aside, 0.0, 0.125);
+        ([0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0], Towards::Point(light))
+    });
+    // Along the surface from an origin that is shallow: near the coordinates' zero, with a light towards which the normal faces by
+    // its rounding alone.
+    let along_the_surface = [
         (
             [-1.279_946_9, -1.279_946_2, -1.279_945_4, 2.216_931_8],
             [-0.639_973_46, -0.639_973_1, -0.639_972_7],
             [1.279_946_9, 1.279_946_2, 1.279_945_4],
-            [-0.359_929_35, 0.321_000_93, 0.038_928_665],
+            Towards::Direction(Vec3::new(-0.359_929_35, 0.321_000_93, 0.038_928_665)),
         ),
         (
             [-1.967_390_4, -1.967_388_2, -1.967_389_3, 3.407_618_3],
             [-0.983_695_2, -0.983_694_1, -0.983_694_7],
             [1.967_390_4, 1.967_388_2, 1.967_389_3],
-            [-0.020_913_446, -0.293_196_56, 0.314_109_86],
+            Towards::Direction(Vec3::new(-0.020_913_446, -0.293_196_56, 0.314_109_86)),
         ),
-    ] {
-        let rays = [Ray::new(Vec3::from_array(origin), Vec3::from_array(direction))];
-        let towards = Towards::Direction(Vec3::from_array(light));
-        assert!(assert_as_one_ray(&SphereList::from([sphere]), &rays, towards) > 0, "{light:?}");
+    ];
+    for (sphere, origin, direction, towards) in within_a_step.into_iter().chain(along_the_surface) {
+        let rays = [Ray::from([origin, direction])];
+        assert!(assert_as_one_ray(&SphereList::from([sphere]), &rays, towards) > 0, "{towards:?}");
     }
 }
 

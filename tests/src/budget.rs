@@ -152,19 +152,16 @@ pub fn pin(fresh: &[Row]) {
 pub fn measure(set: Set) -> Option<Vec<Row>> {
     let rows = match set {
         Set::Measured => {
-            let rows = |m: &spherule_referee::measured::Measured| {
-                measure_cases(set, m.name, m.cases(50_000))
-            };
-            MEASURED.iter().flat_map(rows).collect()
+            MEASURED.iter().flat_map(|r| measure_cases(set, r.name, r.cases(50_000))).collect()
         }
         Set::Hard => HARD.iter().flat_map(|r| measure_cases(set, r.name, r.cases(5_000))).collect(),
         Set::Vectors => {
             let vectors = vectors::read()?;
-            let rows = |regime: &spherule_referee::families::Family| {
-                let own = vectors.iter().filter(|vector| vector.regime == regime.number);
-                measure_cases(set, regime.name, own.map(|vector| vector.case))
+            let cases = |number: u8| {
+                let own = vectors.iter().filter(move |vector| vector.regime == number);
+                own.map(|vector| vector.case)
             };
-            HARD.iter().flat_map(rows).collect()
+            HARD.iter().flat_map(|r| measure_cases(set, r.name, cases(r.number))).collect()
         }
     };
     Some(rows)
@@ -172,13 +169,12 @@ pub fn measure(set: Set) -> Option<Vec<Row>> {
 
 /// Asks as users do: a list of one sphere.
 fn measure_cases(set: Set, regime: &str, cases: impl Iterator<Item = Case>) -> Vec<Row> {
-    let engine = |tier: Tier| {
+    let engines = Tier::ALL.map(|tier| {
         move |case: &Case| {
-            let list = SphereList::from(&[case.sphere][..]);
+            let list = SphereList::from([case.sphere]);
             list.closest_hit(tier, &case.ray).map(|hit| hit.t)
         }
-    };
-    let engines = Tier::ALL.map(engine);
+    });
     let table = table();
     let errors = tally::measure(cases, &engines.each_ref().map(|engine| engine as _));
     let row = |(tier, errors): (Tier, &Errors)| {

@@ -8,7 +8,7 @@
 //! | [`tally`] | counts and errors of a tier's answers |
 //! | [`scenes`] | scenes that are measured |
 //! | [`orders`] | orders in which rays come |
-//! | [`kept`] | some of the families' cases with their answers, in a file |
+//! | [`point`] | points in double precision |
 //! | [`campaign`] | runs of many minutes |
 //! | [`budget`] | the one table of what each tier gets wrong, and where |
 //! | [`art`] | how near a picture in a terminal comes to the truth |
@@ -26,9 +26,9 @@ pub mod binary;
 #[cfg(feature = "tally")]
 pub mod budget;
 pub mod campaign;
-pub mod kept;
 pub mod oracle;
 pub mod orders;
+pub mod point;
 pub mod scenes;
 #[cfg(feature = "tally")]
 pub mod tally;

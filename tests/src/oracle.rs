@@ -136,6 +136,20 @@ pub fn discriminant(ray: &Ray, sphere: &Sphere) -> Option<BigInt> {
     Quadratic::new(ray, sphere).map(|quadratic| quadratic.discriminant)
 }
 
+/// How the distance of a point from the centre compares with the radius. Both must be finite.
+#[must_use]
+pub fn side(point: Vec3, sphere: &Sphere) -> Ordering {
+    let (x, c, r) = (units3(point), units3(sphere.center), units(sphere.radius));
+    let q = [0, 1, 2].map(|i| &x[i] - &c[i]);
+    dot(&q, &q).cmp(&(&r * &r))
+}
+
+/// The bits of two roots: here -0 differs from 0, and a NaN equals itself.
+#[must_use]
+pub fn root_bits(roots: Option<[f32; 2]>) -> Option<[u32; 2]> {
+    roots.map(|roots| roots.map(f32::to_bits))
+}
+
 /// How D compares with zero: `Less` is a miss, `Equal` a tangent. `None` for invalid input.
 #[must_use]
 pub fn discriminant_sign(ray: &Ray, sphere: &Sphere) -> Option<Ordering> {

@@ -63,65 +63,52 @@ pub enum Order {
 }
 
 impl Order {
-    /// All of them.
-    pub const ALL: [Self; 22] = [
-        Self::Beam,
-        Self::NearlyParallel,
-        Self::ToALight,
-        Self::LongLens,
-        Self::ScanLines,
-        Self::Shuffled,
-        Self::Reversed,
-        Self::SortedByDirection,
-        Self::TwoCameras,
-        Self::HalfAndHalf,
-        Self::Alternating64,
-        Self::Bursts16,
-        Self::Bursts64,
-        Self::Bursts1000,
-        Self::Scanner,
-        Self::TwoLights,
-        Self::AlongAnAxis,
-        Self::FromFarAway,
-        Self::Alternating16,
-        Self::AllAround,
-        Self::Diffuse,
-        Self::Bounces,
+    /// Each in its place, with its name in tables.
+    const NAMED: [(Self, &'static str); 22] = [
+        (Self::Beam, "beam"),
+        (Self::NearlyParallel, "nearly parallel"),
+        (Self::ToALight, "to a light"),
+        (Self::LongLens, "long lens, shuffled"),
+        (Self::ScanLines, "scan lines"),
+        (Self::Shuffled, "shuffled"),
+        (Self::Reversed, "reversed"),
+        (Self::SortedByDirection, "sorted by direction"),
+        (Self::TwoCameras, "two cameras"),
+        (Self::HalfAndHalf, "half and half"),
+        (Self::Alternating64, "64 and 64"),
+        (Self::Bursts16, "bursts of 16"),
+        (Self::Bursts64, "bursts of 64"),
+        (Self::Bursts1000, "bursts of 1000"),
+        (Self::Scanner, "scanner"),
+        (Self::TwoLights, "two lights"),
+        (Self::AlongAnAxis, "along an axis"),
+        (Self::FromFarAway, "from far away"),
+        (Self::Alternating16, "16 and 16"),
+        (Self::AllAround, "all around"),
+        (Self::Diffuse, "diffuse"),
+        (Self::Bounces, "bounces"),
     ];
+
+    /// All of them.
+    pub const ALL: [Self; 22] = {
+        let (mut all, mut place) = ([Self::Beam; 22], 0);
+        while place < all.len() {
+            all[place] = Self::NAMED[place].0;
+            place += 1;
+        }
+        all
+    };
 
     /// The name in tables.
     #[must_use]
     pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Beam => "beam",
-            Self::NearlyParallel => "nearly parallel",
-            Self::ToALight => "to a light",
-            Self::LongLens => "long lens, shuffled",
-            Self::ScanLines => "scan lines",
-            Self::Shuffled => "shuffled",
-            Self::Reversed => "reversed",
-            Self::SortedByDirection => "sorted by direction",
-            Self::TwoCameras => "two cameras",
-            Self::HalfAndHalf => "half and half",
-            Self::Alternating64 => "64 and 64",
-            Self::Bursts16 => "bursts of 16",
-            Self::Bursts64 => "bursts of 64",
-            Self::Bursts1000 => "bursts of 1000",
-            Self::Scanner => "scanner",
-            Self::TwoLights => "two lights",
-            Self::AlongAnAxis => "along an axis",
-            Self::FromFarAway => "from far away",
-            Self::Alternating16 => "16 and 16",
-            Self::AllAround => "all around",
-            Self::Diffuse => "diffuse",
-            Self::Bounces => "bounces",
-        }
+        Self::NAMED[self as usize].1
     }
 
     /// The order of that name; `None` if there is none.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|order| order.as_str() == name)
+        Self::NAMED.into_iter().find(|(_, own)| *own == name).map(|(order, _)| order)
     }
 
     /// `count` rays for a scene.

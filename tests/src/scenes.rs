@@ -23,12 +23,12 @@
 //! uniform in it, directions uniform. The [small] scenes are lists.
 
 mod hard;
-mod point;
 mod rays;
 pub mod small;
 mod spheres;
 
 use spherule_kernel::{Ray, Sphere, SphereList, SphereTree, Vec3, Viewpoint};
+use spherule_referee::aim::{double, single};
 use spherule_referee::random::power_of_two;
 use std::f64::consts::PI;
 use std::rc::Rc;
@@ -141,15 +141,23 @@ impl Scene {
                 // The cube's side is 2; at the cube the picture is 2.6 high.
                 let distance = 2.0e4;
                 let angle = (1.3_f64 / distance).atan() * 2.0 * 180.0 / PI;
+                let primary = camera([0.0, 0.0, distance], [0.0; 3], angle);
                 let diffuse = rays::from_afar(distance, count);
-                (
-                    spheres::uniform(at_most(10_000), 2),
-                    camera([0.0, 0.0, distance], [0.0; 3], angle),
-                    diffuse,
-                )
+                (spheres::uniform(at_most(10_000), 2), primary, diffuse)
             }
         };
-        Some(Self { name, spheres: Rc::new(spheres.into()), is_small: false, primary, diffuse })
+        Some(Self::of(name, spheres, primary, diffuse))
+    }
+
+    fn of(name: &'static str, spheres: Vec<Sphere>, primary: Vec<Ray>, diffuse: Vec<Ray>) -> Self {
+        Self { name, spheres: Rc::new(spheres.into()), is_small: false, primary, diffuse }
+    }
+
+    /// With the rays of the uniform scenes.
+    fn in_cube(name: &'static str, spheres: Vec<Sphere>, pixels: usize) -> Self {
+        let primary = rays::perspective([0.0, 0.0, 4.0], [0.0; 3], 40.0, pixels);
+        let [low, high] = spheres::CUBE;
+        Self::of(name, spheres, primary, rays::scattered(low, high, pixels * pixels / 4))
     }
 
     /// Whether there is a sphere of radius 1000.
@@ -161,40 +169,22 @@ impl Scene {
     /// Radii that span more than a millionfold: at most 20,000 spheres in the cube, a third of which lies in some sphere.
     #[must_use]
     pub fn spread(Size(pixels, most): Size) -> Self {
-        Self {
-            name: SPREAD,
-            spheres: Rc::new(hard::spread(most.min(20_000)).into()),
-            is_small: false,
-            primary: rays::perspective([0.0, 0.0, 4.0], [0.0; 3], 40.0, pixels),
-            diffuse: rays::scattered([-1.0; 3], [1.0; 3], pixels * pixels / 4),
-        }
+        Self::in_cube(SPREAD, hard::spread(most.min(20_000)), pixels)
     }
 
     /// `count` uniform spheres, to measure growth, with the rays of the uniform scenes.
     #[must_use]
     pub fn uniform(count: usize, pixels: usize) -> Self {
-        Self {
-            name: "uniform",
-            spheres: Rc::new(spheres::uniform(count, 5).into()),
-            is_small: false,
-            primary: rays::perspective([0.0, 0.0, 4.0], [0.0; 3], 40.0, pixels),
-            diffuse: rays::scattered([-1.0; 3], [1.0; 3], pixels * pixels / 4),
-        }
+        Self::in_cube("uniform", spheres::uniform(count, 5), pixels)
     }
 
     /// The same scene multiplied by a power of two, with directions multiplied by another.
     #[must_use]
     pub fn scaled(&self, [scene, length]: [i64; 2]) -> Self {
-        let times = |v: Vec3, exponent: i64| {
-            Vec3::from_array(v.to_array().map(|x| (f64::from(x) * power_of_two(exponent)) as f32))
-        };
-        let sphere = |s: Sphere| Sphere {
-            center: times(s.center, scene),
-            radius: (f64::from(s.radius) * power_of_two(scene)) as f32,
-        };
-        let ray = |ray: &Ray| Ray::new(times(ray.origin, scene), times(ray.direction, length));
+        let ray = |ray: &Ray| scaled_ray(ray, scene, length);
+        let spheres = self.spheres.spheres().iter().map(|sphere| scaled_sphere(&sphere, scene));
         Self {
-            spheres: Rc::new(self.spheres.spheres().iter().map(sphere).collect()),
+            spheres: Rc::new(spheres.collect()),
             primary: self.primary.iter().map(ray).collect(),
             diffuse: self.diffuse.iter().map(ray).collect(),
             ..self.clone()
@@ -210,8 +200,7 @@ impl Scene {
     /// One sphere, and no rays.
     #[must_use]
     pub fn of_case(sphere: Sphere) -> Self {
-        let spheres = Rc::new(SphereList::from([sphere]));
-        Self { name: "", spheres, is_small: true, primary: Vec::new(), diffuse: Vec::new() }
+        Self { is_small: true, ..Self::of("", vec![sphere], Vec::new(), Vec::new()) }
     }
 
     /// Its rays, in the order in which they fill packets.
@@ -222,6 +211,23 @@ impl Scene {
             Kind::Diffuse => &self.diffuse,
         }
     }
+}
+
+/// A sphere multiplied by a power of two.
+#[must_use]
+pub fn scaled_sphere(sphere: &Sphere, exponent: i64) -> Sphere {
+    let radius = (f64::from(sphere.radius) * power_of_two(exponent)) as f32;
+    Sphere { center: times(sphere.center, exponent), radius }
+}
+
+/// A ray without an end, its origin multiplied by one power of two, its direction by another.
+#[must_use]
+pub fn scaled_ray(ray: &Ray, exponent: i64, length: i64) -> Ray {
+    Ray::new(times(ray.origin, exponent), times(ray.direction, length))
+}
+
+fn times(vector: Vec3, exponent: i64) -> Vec3 {
+    single(double(vector).map(|x| x * power_of_two(exponent)))
 }
 
 /// What all of the rays share, which a depth list needs; `None` for diffuse rays.

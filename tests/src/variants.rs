@@ -16,9 +16,9 @@ mod table;
 mod tiles;
 
 pub use answers::Answers;
-pub use difference::{assert_same, assert_same_from, bits, difference};
+pub use difference::{assert_hits, assert_same, assert_same_from, bits};
 pub use memory::{Memory, Structures, viewpoint_of};
 pub use pairs::{pair_layers, pairs_of};
 pub use surfaces::{shadow_rays_of, surface_layers, surfaces_of};
 pub use table::{Layer, Structure, Variant, brute, levels, lists, reference, variants};
-pub use tiles::{Frame, assert_same_tiles, tile_difference};
+pub use tiles::{Frame, assert_same_tiles};

@@ -1,11 +1,11 @@
 //! False hits of `Fast` and `Geometric`, and of `Stable` where squares underflow: which of them a tree or depth list loses.
 
 use super::scenes::{point, uniform};
-use spherule_kernel::{Coherence, Hit, Ray, Sphere, Tier, Vec3, Viewpoint, roots};
+use spherule_kernel::{Hit, Intersect, Ray, Sphere, SphereTree, Tier, Vec3, Viewpoint, roots};
 use spherule_referee::case::HexRay;
 use spherule_referee::random::{Random, power_of_two};
 use spherule_tests::variants::{
-    Layer, Memory, Structure, Variant, bits, brute, variants, viewpoint_of,
+    Memory, Structure, Variant, assert_hits, bits, brute, variants, viewpoint_of,
 };
 
 /// `Fast` and `Geometric` may lose false hits, and nothing else.
@@ -58,32 +58,19 @@ fn a_tree_sees_the_same_false_hits_by_every_call() {
             Ray::new(Vec3::ZERO, (random.pick(&spheres).center + Vec3::new(x, y, 0.0)) / 900.0)
         };
         let mut rays: Vec<Ray> = (0..2000).map(|_| aim(&mut random)).collect();
+        let tree = SphereTree::new(spheres.as_slice());
         for order in 0..2 {
             if order == 1 {
                 rays.sort_by(|a, b| a.direction.x.total_cmp(&b.direction.x));
             }
             for tier in [Tier::Fast, Tier::Geometric] {
-                Memory::new(&spheres).sorted(viewpoint_of(&rays), |structures| {
-                    let structure = Structure::Tree(Coherence::Detect);
-                    let alone =
-                        Variant { tier, structure, layer: Layer::Ray }.ask(structures, &rays);
-                    for variant in
-                        variants().filter(|variant| variant.tier == tier && is_tree(variant))
-                    {
-                        let answers = variant.ask(structures, &rays);
-                        for (index, (hit, one)) in answers.hits.iter().zip(&alone.hits).enumerate()
-                        {
-                            let (is_same, is_hit) = (bits(*hit) == bits(*one), one.is_some());
-                            assert!(
-                                is_same && answers.occluded[index] == is_hit,
-                                "{variant:?}, ray {index}, {count} spheres: {hit:?}, alone {one:?}"
-                            );
-                        }
-                    }
-                    let hits = alone.hits.iter().flatten().count();
-                    let all = brute(tier).closest(&spheres, &rays).iter().flatten().count();
-                    (seen, lost) = (seen + hits, lost + all - hits);
+                let alone: Vec<_> = rays.iter().map(|ray| tree.closest_hit(tier, ray)).collect();
+                assert_hits(&alone, &rays, &spheres, &|variant| {
+                    variant.tier == tier && is_tree(variant)
                 });
+                let hits = alone.iter().flatten().count();
+                let all = brute(tier).closest(&spheres, &rays).iter().flatten().count();
+                (seen, lost) = (seen + hits, lost + all - hits);
             }
         }
     }
@@ -110,20 +97,15 @@ fn a_tree_of_few_spheres_sees_what_the_list_sees() {
 
 /// Asserts that trees of these spheres answer a ray as the list does, alone and beside others.
 fn assert_as_list(spheres: &[Sphere], ray: Ray) {
-    let of_tree = |v: &Variant| is_tree(v) || matches!(v.structure, Structure::Refitted(_));
-    Memory::new(spheres).sorted(Viewpoint::Origin(ray.origin), |structures| {
-        for variant in variants().filter(of_tree) {
-            let expected = brute(variant.tier).closest(spheres, &[ray])[0];
-            for count in [1, 9, 64] {
-                let answers = variant.ask(structures, &vec![ray; count]);
-                for (hit, occluded) in answers.hits.iter().zip(&answers.occluded) {
-                    let found = (bits(*hit), *occluded);
-                    let expected = (bits(expected), expected.is_some());
-                    assert_eq!(found, expected, "{variant:?}, {count} rays, {spheres:?}");
-                }
-            }
+    for tier in Tier::ALL {
+        let expected = brute(tier).closest(spheres, &[ray])[0];
+        for count in [1, 9, 64] {
+            assert_hits(&vec![expected; count], &vec![ray; count], spheres, &|variant| {
+                let is_refitted = matches!(variant.structure, Structure::Refitted(_));
+                variant.tier == tier && (is_tree(variant) || is_refitted)
+            });
         }
-    });
+    }
 }
 
 /// Lines near the border of a sphere's box, and products that are subnormal.
@@ -156,19 +138,10 @@ fn a_tree_sees_the_same_hits_at_the_border_of_a_box() {
                     rays.push(other);
                 }
                 for tier in [Tier::Fast, Tier::Geometric] {
-                    let expected = brute(tier).closest(&spheres, &[ray])[0];
-                    assert!(expected.is_some(), "{sphere:?}: the formula sees no hit");
-                    Memory::new(&spheres).sorted(Viewpoint::Origin(Vec3::ZERO), |structures| {
-                        for variant in variants().filter(|v| v.tier == tier && is_tree(v)) {
-                            let answers = variant.ask(structures, &rays);
-                            for (index, hit) in answers.hits[..count].iter().enumerate() {
-                                let is_same = bits(*hit) == bits(expected);
-                                assert!(
-                                    is_same && answers.occluded[index],
-                                    "{variant:?}, {count} of {sphere:?}: {hit:?}, {expected:?}"
-                                );
-                            }
-                        }
+                    let expected = brute(tier).closest(&spheres, &rays);
+                    assert!(expected[0].is_some(), "{sphere:?}: the formula sees no hit");
+                    assert_hits(&expected, &rays, &spheres, &|variant| {
+                        variant.tier == tier && is_tree(variant)
                     });
                 }
             }

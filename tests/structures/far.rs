@@ -6,6 +6,7 @@ use super::{BOTH, EXACT};
 use spherule_kernel::{Ray, Sphere, Vec3};
 use spherule_referee::aim::{double, single};
 use spherule_referee::random::{Random, dot, power_of_two};
+use spherule_tests::point::{plus, unit as direction_of};
 use spherule_tests::variants::assert_same;
 
 /// How many rays a bundle has.
@@ -37,14 +38,9 @@ fn looks(random: &mut Random, middle: Vec3, distance: f64, bundles: usize) -> Ve
 /// For the line of the rounded ray: its point closest to `middle`, and its direction of length one.
 fn line(ray: &Ray, middle: Vec3) -> ([f64; 3], [f64; 3]) {
     let (o, d, m) = (double(ray.origin), double(ray.direction), double(middle));
-    let length = dot(d, d).sqrt();
-    let n = d.map(|x| x / length);
+    let n = direction_of(d);
     let s = dot([m[0] - o[0], m[1] - o[1], m[2] - o[2]], n);
     (plus(o, s, n), n)
-}
-
-fn plus(a: [f64; 3], factor: f64, b: [f64; 3]) -> [f64; 3] {
-    [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]
 }
 
 /// Spheres that a ray passes at the distance of their radius, give or take some roundings. Half of them touch the

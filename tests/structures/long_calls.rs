@@ -25,7 +25,7 @@ fn ray_by_ray(tree: &SphereTree, rays: &[Ray]) -> Answers {
 /// If a way differs from ray by ray.
 fn check(name: &str, tree: &SphereTree, rays: &[Ray]) {
     let expected = ray_by_ray(tree, rays);
-    for level in levels().map(|name| Level::named(name).expect("a level of this CPU")) {
+    for level in levels() {
         let name = format!("{name}, {} rays, {level:?}", rays.len());
         let (slices, packets) = (Layer::SliceAt(level.name()), Layer::Packets(level.name()));
         // The second time, the trace uses what it has learnt.

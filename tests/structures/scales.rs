@@ -1,53 +1,34 @@
 //! Nothing depends on the units. If a scene, or the directions of its rays, are multiplied by powers of two, the answers
 //! are multiplied. `tests/proofs/src/scales.rs` shows that the work is the same.
 
-use super::scenes::{EYE, camera, point, uniform, unit};
+use super::scenes::{EYE, camera, diffuse, uniform};
 use super::{BOTH, EXACT};
-use spherule_kernel::{Intersect, Ray, Sphere, SphereList, Tier, Vec3};
+use spherule_kernel::{Ray, Sphere, Tier, Vec3};
 use spherule_referee::random::{Random, power_of_two};
+use spherule_tests::scenes::{scaled_ray, scaled_sphere};
 use spherule_tests::variants::{assert_same, bits, brute};
 
-fn times(vector: Vec3, exponent: i64) -> Vec3 {
-    Vec3::from_array(vector.to_array().map(|x| (f64::from(x) * power_of_two(exponent)) as f32))
-}
-
-pub(super) fn scaled(spheres: &[Sphere], exponent: i64) -> Vec<Sphere> {
-    let radius = |r: f32| (f64::from(r) * power_of_two(exponent)) as f32;
-    let scaled =
-        |s: &Sphere| Sphere { center: times(s.center, exponent), radius: radius(s.radius) };
-    spheres.iter().map(scaled).collect()
+fn scaled(spheres: &[Sphere], exponent: i64) -> Vec<Sphere> {
+    spheres.iter().map(|sphere| scaled_sphere(sphere, exponent)).collect()
 }
 
 /// Multiplies origins by one power of two, and directions by another.
-pub(super) fn scaled_rays(rays: &[Ray], exponent: i64, length: i64) -> Vec<Ray> {
-    let scaled = |ray: &Ray| Ray::new(times(ray.origin, exponent), times(ray.direction, length));
-    rays.iter().map(scaled).collect()
-}
-
-/// Rays from everywhere to everywhere.
-pub(super) fn diffuse(count: usize) -> Vec<Ray> {
-    let mut random = Random::new(100, 0);
-    (0..count).map(|_| Ray::new(point(&mut random, 1.0), unit(&mut random))).collect()
+fn scaled_rays(rays: &[Ray], exponent: i64, length: i64) -> Vec<Ray> {
+    rays.iter().map(|ray| scaled_ray(ray, exponent, length)).collect()
 }
 
 /// The same hits, with t multiplied, for every power of two; structures answer as the list.
 #[test]
 fn scaled_scenes_have_scaled_answers() {
-    let spheres = uniform(150);
+    let unscaled = uniform(150);
     let mut random = Random::new(101, 0);
     let mut rays = camera(EYE, Vec3::ZERO, 0.364, 8);
     rays.extend(diffuse(32));
-    let list = SphereList::from(spheres.as_slice());
-    let answers = |tier: Tier, list: &SphereList, rays: &[Ray]| {
-        let mut hits = vec![None; rays.len()];
-        list.closest_hits(tier, rays, &mut hits);
-        hits
-    };
     for exponent in -100..=100 {
         // Directions scaled by one, by the scene's factor, or at random.
         let random_length = random.integer(-100, 100);
         for length in [0, exponent, random_length] {
-            let spheres = scaled(&spheres, exponent);
+            let spheres = scaled(&unscaled, exponent);
             let rays_here = scaled_rays(&rays, exponent, length);
             let stable = (-34..=34).contains(&exponent);
             assert_same(if stable { BOTH } else { EXACT }, &rays_here, &spheres);
@@ -56,10 +37,9 @@ fn scaled_scenes_have_scaled_answers() {
             if by.abs() > 110 {
                 continue;
             }
-            let scaled_list = SphereList::from(spheres.as_slice());
-            for tier in if stable { BOTH } else { EXACT } {
-                let expected = answers(*tier, &list, &rays);
-                let found = answers(*tier, &scaled_list, &rays_here);
+            for &tier in if stable { BOTH } else { EXACT } {
+                let expected = brute(tier).closest(&unscaled, &rays);
+                let found = brute(tier).closest(&spheres, &rays_here);
                 for (expected, found) in expected.iter().zip(&found) {
                     let expected = expected.map(|hit| {
                         let t = f64::from(hit.t) * power_of_two(by);
@@ -121,9 +101,8 @@ fn where_t_are_the_least_numbers() {
         for by in 20..=60 {
             // A t of 2^-149 is 2^(by - 40) of the scene.
             let length = (by - 40 + exponent + 149).min(126);
-            let mut some = diffuse(8);
+            let mut some = scaled_rays(&diffuse(8), exponent, length);
             for ray in &mut some {
-                *ray = scaled_rays(&[*ray], exponent, length)[0];
                 ray.t_min =
                     random.pick(&[0.0, f32::from_bits(1), -f32::from_bits(1), f32::NEG_INFINITY]);
                 ray.t_max = random.pick(&[f32::INFINITY, f32::from_bits(3), 0.0]);

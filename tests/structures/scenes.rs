@@ -9,8 +9,7 @@ use spherule_tests::variants::brute;
 pub(super) const EYE: Vec3 = Vec3::new(0.3, 0.4, 4.0);
 
 pub(super) fn point(random: &mut Random, size: f64) -> Vec3 {
-    let mut coordinate = || random.uniform(-size, size) as f32;
-    Vec3::new(coordinate(), coordinate(), coordinate())
+    single([(); 3].map(|()| random.uniform(-size, size)))
 }
 
 pub(super) fn unit(random: &mut Random) -> Vec3 {
@@ -21,11 +20,11 @@ pub(super) fn unit(random: &mut Random) -> Vec3 {
 pub(super) fn uniform(count: usize) -> Vec<Sphere> {
     let mut random = Random::new(70, count as u64);
     let size = 0.5 * (count as f64).powf(-1.0 / 3.0);
-    let mut sphere = || Sphere {
+    let sphere = |_| Sphere {
         center: point(&mut random, 1.0),
         radius: (size * random.uniform(0.5, 1.5)) as f32,
     };
-    (0..count).map(|_| sphere()).collect()
+    (0..count).map(sphere).collect()
 }
 
 /// A sphere, six spheres of half its size on it, and so on.

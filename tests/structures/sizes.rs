@@ -1,8 +1,7 @@
 //! Spheres of all sizes in one scene: the answers of brute force. `tests/proofs/src/scales.rs` shows that they take no more work.
 
 use super::EXACT;
-use super::scales::{diffuse, scaled, scaled_rays};
-use super::scenes::{EYE, camera, uniform};
+use super::scenes::{EYE, camera, diffuse, uniform};
 use proptest::prelude::*;
 use spherule_kernel::{
     Coherence, HitPacket, Intersect, Ray, RayPacket, Sphere, SphereTree, Tier, Trace, Vec3,
@@ -10,7 +9,8 @@ use spherule_kernel::{
 };
 use spherule_referee::random::{Random, power_of_two};
 use spherule_referee::strategies;
-use spherule_tests::variants::{assert_same, assert_same_from, difference};
+use spherule_tests::scenes::{scaled_ray, scaled_sphere};
+use spherule_tests::variants::{assert_same, assert_same_from};
 
 /// Scenes of many sizes.
 fn mixed(random: &mut Random) -> Vec<Vec<Sphere>> {
@@ -25,14 +25,13 @@ fn mixed(random: &mut Random) -> Vec<Vec<Sphere>> {
     };
     let half = |exponent: i64| {
         let mut spheres = uniform(1000);
-        let others = scaled(&spheres, exponent);
-        for place in (0..1000).step_by(2) {
-            spheres[place] = others[place];
+        for sphere in spheres.iter_mut().step_by(2) {
+            *sphere = scaled_sphere(sphere, exponent);
         }
         spheres
     };
     let every = uniform(1000);
-    let every = every.chunks(1).flat_map(|sphere| scaled(sphere, random.integer(-120, 120)));
+    let every = every.iter().map(|sphere| scaled_sphere(sphere, random.integer(-120, 120)));
     let tiny = Sphere { center: Vec3::ZERO, radius: 1e-30 };
     vec![
         with(ground(60)),
@@ -49,7 +48,7 @@ fn mixed(random: &mut Random) -> Vec<Vec<Sphere>> {
 fn rays_there(exponent: i64) -> Vec<Ray> {
     let mut rays = camera(EYE, Vec3::ZERO, 0.364, 16);
     rays.extend(diffuse(128));
-    scaled_rays(&rays, exponent, 0)
+    rays.iter().map(|ray| scaled_ray(ray, exponent, 0)).collect()
 }
 
 #[test]
@@ -104,12 +103,12 @@ proptest! {
         let mut random = Random::new(103, seed);
         let mut spheres = uniform(60);
         for sphere in &mut spheres {
-            *sphere = scaled(&[*sphere], random.pick(&sizes))[0];
+            *sphere = scaled_sphere(sphere, random.pick(&sizes));
         }
         let mut rays = camera(EYE, Vec3::ZERO, 0.364, 4);
         rays.extend(diffuse(16));
         for ray in &mut rays {
-            *ray = scaled_rays(&[*ray], random.pick(&sizes), random.pick(&lengths))[0];
+            *ray = scaled_ray(ray, random.pick(&sizes), random.pick(&lengths));
             if random.one_in(4) {
                 ray.t_min = random.pick(&[f32::NEG_INFINITY, -1.0, 0.0, 1e-45, 1e-30, 1.0, 1e30]);
                 ray.t_max = random.pick(&[f32::INFINITY, 0.0, 1.0, 1e-45, 1e-30, 1e30, f32::MAX]);
@@ -122,8 +121,6 @@ proptest! {
         } else {
             Viewpoint::Origin(first.origin)
         };
-        if let Some(difference) = difference(EXACT, &rays, &spheres, viewpoint) {
-            return Err(TestCaseError::fail(difference));
-        }
+        assert_same_from(viewpoint, EXACT, &rays, &spheres);
     }
 }

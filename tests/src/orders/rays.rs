@@ -1,11 +1,11 @@
 //! The rays that orders are made of, in double precision, rounded once.
 
 use super::Extent;
-use spherule_kernel::{Ray, Sphere, Spheres, Vec3};
+use crate::point::{Point, plus, unit, within};
+use spherule_kernel::{Ray, Sphere, Spheres};
+use spherule_referee::aim::single;
 use spherule_referee::random::{Random, cross, dot};
 use std::f64::consts::TAU;
-
-type Point = [f64; 3];
 
 /// Pixels of a line of a large picture.
 const LINE: usize = 1024;
@@ -27,8 +27,7 @@ pub(super) struct Rays<'a> {
 impl Rays<'_> {
     /// Uniform in the box.
     fn inside(&mut self) -> Point {
-        let Extent { low, high } = *self.extent;
-        [0, 1, 2].map(|axis| self.random.uniform(low[axis], high[axis]))
+        within(&mut self.random, self.extent.low, self.extent.high)
     }
 
     /// So many halves of the scene from its middle.
@@ -186,15 +185,5 @@ pub(super) fn sorted_by_direction(mut rays: Vec<Ray>) -> Vec<Ray> {
 }
 
 fn ray(origin: Point, direction: Point) -> Ray {
-    let rounded = |point: Point| Vec3::from_array(point.map(|x| x as f32));
-    Ray::new(rounded(origin), rounded(direction))
-}
-
-fn plus(a: Point, factor: f64, b: Point) -> Point {
-    [0, 1, 2].map(|axis| a[axis] + factor * b[axis])
-}
-
-fn unit(v: Point) -> Point {
-    let length = dot(v, v).sqrt();
-    v.map(|x| x / length)
+    Ray::new(single(origin), single(direction))
 }

@@ -1,8 +1,9 @@
 //! The spheres of scenes that are hard for trees: their boxes tell little of them.
 
-use super::point::{direction, plus, rounded, within};
-use super::spheres::{in_cube, uniform};
+use super::spheres::{CUBE, in_cube, scattered, uniform};
+use crate::point::{direction, plus, within};
 use spherule_kernel::{Sphere, Vec3};
+use spherule_referee::aim::single;
 use spherule_referee::random::Random;
 use std::f64::consts::PI;
 
@@ -16,7 +17,7 @@ pub(super) fn shell(count: usize) -> Vec<Sphere> {
     let mut random = Random::seeded(10);
     let side = (4.0 * PI / count as f64).sqrt();
     let sphere = |_| {
-        let center = rounded(direction(&mut random));
+        let center = single(direction(&mut random));
         Sphere { center, radius: (side * random.uniform(0.25, 0.75)) as f32 }
     };
     (0..count).map(sphere).collect()
@@ -43,12 +44,7 @@ pub(super) fn duplicates(count: usize) -> Vec<Sphere> {
 
 /// Uniform in the cube from -1 to 1. Of 10,000 spheres so large, a point of the cube lies in more than forty.
 pub(super) fn overlapping(count: usize) -> Vec<Sphere> {
-    let mut random = Random::seeded(13);
-    let sphere = |_| {
-        let center = rounded(within(&mut random, [-1.0; 3], [1.0; 3]));
-        Sphere { center, radius: random.uniform(0.1, 0.3) as f32 }
-    };
-    (0..count).map(sphere).collect()
+    scattered(count, CUBE, 13, |random| random.uniform(0.1, 0.3))
 }
 
 /// Uniform in the cube from -1 to 1, a tenth as large as there is room. In the middle of the list stands a sphere in the middle of the
@@ -64,10 +60,11 @@ pub(super) fn chains(count: usize) -> Vec<Sphere> {
     const RADIUS: f64 = 1.5 / LINKS as f64;
     let mut random = Random::seeded(15);
     let mut chain = || {
-        let (middle, along) = (within(&mut random, [-1.0; 3], [1.0; 3]), direction(&mut random));
+        let [low, high] = CUBE;
+        let (middle, along) = (within(&mut random, low, high), direction(&mut random));
         let link = move |number| {
             let from_middle = (2 * number) as f64 - (LINKS - 1) as f64;
-            let center = rounded(plus(middle, from_middle * RADIUS, along));
+            let center = single(plus(middle, from_middle * RADIUS, along));
             Sphere { center, radius: RADIUS as f32 }
         };
         (0..LINKS).map(link)
@@ -78,11 +75,6 @@ pub(super) fn chains(count: usize) -> Vec<Sphere> {
 /// Uniform in the cube from -1 to 1. Radii are 2^-20 to 1 of the largest, and every power of two between is as frequent. 20,000 spheres
 /// fill a third of the cube, and fewer fill as much.
 pub(super) fn spread(count: usize) -> Vec<Sphere> {
-    let mut random = Random::seeded(16);
     let largest = 0.1 * (20_000.0 / count as f64).cbrt();
-    let sphere = |_| {
-        let center = rounded(within(&mut random, [-1.0; 3], [1.0; 3]));
-        Sphere { center, radius: (largest * random.log_uniform(-20, -1)) as f32 }
-    };
-    (0..count).map(sphere).collect()
+    scattered(count, CUBE, 16, |random| largest * random.log_uniform(-20, -1))
 }

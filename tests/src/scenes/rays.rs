@@ -1,7 +1,8 @@
 //! The rays of the large scenes: two cameras, and two kinds of rays that have nothing in common.
 
-use super::point::{Point, direction, plus, rounded, unit, within};
+use crate::point::{Point, direction, plus, unit, within};
 use spherule_kernel::Ray;
+use spherule_referee::aim::single;
 use spherule_referee::random::{Random, cross};
 
 /// Pixels to a side of a tile, which holds sixteen rays.
@@ -12,7 +13,7 @@ pub(super) fn perspective(eye: Point, target: Point, angle: f64, pixels: usize) 
     let [u, v, w] = axes(eye, target);
     let half = (angle.to_radians() / 2.0).tan();
     let towards = |[x, y]: [f64; 2]| plus(plus(w, half * x, u), half * y, v);
-    tiles(pixels).map(|point| Ray::new(rounded(eye), rounded(towards(point)))).collect()
+    tiles(pixels).map(|point| Ray::new(single(eye), single(towards(point)))).collect()
 }
 
 /// A camera whose rays are parallel, with a square picture of side `height`.
@@ -20,7 +21,7 @@ pub(super) fn parallel(eye: Point, target: Point, height: f64, pixels: usize) ->
     let [u, v, w] = axes(eye, target);
     let half = height / 2.0;
     let origin = |[x, y]: [f64; 2]| plus(plus(eye, half * x, u), half * y, v);
-    tiles(pixels).map(|point| Ray::new(rounded(origin(point)), rounded(w))).collect()
+    tiles(pixels).map(|point| Ray::new(single(origin(point)), single(w))).collect()
 }
 
 /// Right, up and forwards; up is towards y.
@@ -47,7 +48,7 @@ pub(super) fn scattered(low: Point, high: Point, count: usize) -> Vec<Ray> {
     let mut random = Random::seeded(7);
     let ray = |_| {
         let origin = within(&mut random, low, high);
-        Ray::new(rounded(origin), rounded(direction(&mut random)))
+        Ray::new(single(origin), single(direction(&mut random)))
     };
     (0..count).map(ray).collect()
 }
@@ -59,7 +60,7 @@ pub(super) fn from_afar(distance: f64, count: usize) -> Vec<Ray> {
     let ray = |_| {
         let origin = direction(&mut random).map(|x| x * distance);
         let target = within(&mut random, [-1.0; 3], [1.0; 3]);
-        Ray::new(rounded(origin), rounded(unit(plus(target, -1.0, origin))))
+        Ray::new(single(origin), single(unit(plus(target, -1.0, origin))))
     };
     (0..count).map(ray).collect()
 }

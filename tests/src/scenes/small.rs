@@ -3,7 +3,6 @@
 use super::{Kind, Scene};
 use spherule_kernel::{Ray, Sphere, Vec3};
 use spherule_referee::random::Random;
-use std::rc::Rc;
 
 /// Half the side of the cube of the centres.
 const HALF: f32 = 10.0;
@@ -46,16 +45,13 @@ fn in_the_cube(count: usize) -> Vec<Sphere> {
 
 fn spheres(count: usize, seed: u64, half: f32, [least, most]: [f32; 2]) -> Vec<Sphere> {
     let mut random = Random::seeded(seed);
-    let sphere = |_| {
-        let center = in_cube(&mut random, half);
-        Sphere { center, radius: between(&mut random, least, most) }
-    };
+    let sphere = |_| Sphere { center: random.in_cube(half), radius: random.between(least, most) };
     (0..count).map(sphere).collect()
 }
 
 fn scene(name: &'static str, spheres: Vec<Sphere>) -> Scene {
     let [primary, diffuse] = Kind::ALL.map(rays);
-    Scene { name, spheres: Rc::new(spheres.into()), is_small: true, primary, diffuse }
+    Scene { is_small: true, ..Scene::of(name, spheres, primary, diffuse) }
 }
 
 /// Rays through a picture of 32 x 32 pixels in tiles of 4 x 4; or rays from all around the cube, each towards another
@@ -63,7 +59,7 @@ fn scene(name: &'static str, spheres: Vec<Sphere>) -> Scene {
 fn rays(kind: Kind) -> Vec<Ray> {
     let mut lengths = Random::seeded(0x5eed);
     let mut towards = |origin: Vec3, target: Vec3| {
-        let length = between(&mut lengths, 0.5, 6.0);
+        let length = lengths.between(0.5, 6.0);
         Ray::new(origin, (target - origin).normalize() * length)
     };
     match kind {
@@ -75,33 +71,11 @@ fn rays(kind: Kind) -> Vec<Ray> {
         }
         Kind::Diffuse => {
             let mut random = Random::seeded(0xd1f7);
-            let mut ray = |_| {
-                let origin = direction(&mut random) * DISTANCE;
-                towards(origin, in_cube(&mut random, HALF))
+            let ray = |_| {
+                let origin = random.direction() * DISTANCE;
+                towards(origin, random.in_cube(HALF))
             };
-            (0..PICTURE * PICTURE).map(&mut ray).collect()
-        }
-    }
-}
-
-/// Uniform in `low ..= high`.
-fn between(random: &mut Random, low: f32, high: f32) -> f32 {
-    let unit = (random.bits() >> 40) as f32 / (1_u64 << 24) as f32;
-    low + unit * (high - low)
-}
-
-/// Uniform in a cube around the origin, `half` from the centre to a side.
-fn in_cube(random: &mut Random, half: f32) -> Vec3 {
-    Vec3::from_array([(); 3].map(|()| between(random, -half, half)))
-}
-
-/// Uniform on the unit sphere: draws points of the cube until one lies in the ball.
-fn direction(random: &mut Random) -> Vec3 {
-    loop {
-        let point = in_cube(random, 1.0);
-        let square = point.length_squared();
-        if (0.01..=1.0).contains(&square) {
-            return point / square.sqrt();
+            (0..PICTURE * PICTURE).map(ray).collect()
         }
     }
 }

@@ -1,7 +1,8 @@
 //! The spheres of the large scenes.
 
-use super::point::{Point, normal, plus, rounded, unit, within};
+use crate::point::{Point, plus, unit, within};
 use spherule_kernel::{Sphere, Vec3};
+use spherule_referee::aim::single;
 use spherule_referee::random::{Random, cross};
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6};
 
@@ -22,14 +23,27 @@ pub(super) fn dense(count: usize) -> Vec<Sphere> {
 
 /// Uniform in the cube from -1 to 1; half to one and a half of `radius` times the side of a cell with half the cube's.
 pub(super) fn in_cube(count: usize, radius: f64, seed: u64) -> Vec<Sphere> {
-    let mut random = Random::seeded(seed);
     let scale = radius * (count as f64).powf(-1.0 / 3.0);
+    scattered(count, CUBE, seed, |random| scale * random.uniform(0.5, 1.5))
+}
+
+/// Centres uniform in a box.
+pub(super) fn scattered(
+    count: usize,
+    [low, high]: [Point; 2],
+    seed: u64,
+    radius: impl Fn(&mut Random) -> f64,
+) -> Vec<Sphere> {
+    let mut random = Random::seeded(seed);
     let sphere = |_| {
-        let center = rounded(within(&mut random, [-1.0; 3], [1.0; 3]));
-        Sphere { center, radius: (scale * random.uniform(0.5, 1.5)) as f32 }
+        let center = single(within(&mut random, low, high));
+        Sphere { center, radius: radius(&mut random) as f32 }
     };
     (0..count).map(sphere).collect()
 }
+
+/// Where most spheres have their centres.
+pub(super) const CUBE: [Point; 2] = [[-1.0; 3], [1.0; 3]];
 
 /// Where the spheres on the ground have their centres.
 pub(super) const LAYER: [Point; 2] = [[-10.0, 0.0, -10.0], [10.0, 1.0, 10.0]];
@@ -37,15 +51,11 @@ pub(super) const LAYER: [Point; 2] = [[-10.0, 0.0, -10.0], [10.0, 1.0, 10.0]];
 /// `count - 1` spheres in a layer on a sphere of radius 1000, which is in the middle of the list. Their radii are
 /// log-normal (the median is a fortieth, sigma 0.7; one in a million is thirty times the median).
 pub(super) fn over_ground(count: usize) -> Vec<Sphere> {
-    let mut random = Random::seeded(9);
     let [low, high] = LAYER;
     let volume: f64 = (0..3).map(|axis| high[axis] - low[axis]).product();
     let median = 0.2 * (volume / count as f64).cbrt();
-    let small = |_| {
-        let center = rounded(within(&mut random, low, high));
-        Sphere { center, radius: (median * (0.7 * normal(&mut random)).exp()) as f32 }
-    };
-    let mut list: Vec<_> = (1..count).map(small).collect();
+    let log_normal = |random: &mut Random| median * (0.7 * random.normal()).exp();
+    let mut list = scattered(count - 1, LAYER, 9, log_normal);
     let ground = Sphere { center: Vec3::new(0.0, -1000.0, 0.0), radius: 1000.0 };
     list.insert(count / 2, ground);
     list
@@ -74,7 +84,7 @@ fn grow(
     (center, radius, axis): (Point, f64, Point),
     generations: u32,
 ) {
-    list.push(Sphere { center: rounded(center), radius: radius as f32 });
+    list.push(Sphere { center: single(center), radius: radius as f32 });
     if generations == 0 {
         return;
     }

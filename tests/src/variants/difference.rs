@@ -1,10 +1,11 @@
-//! Where a structure does not answer as brute force does.
+//! Where a variant does not answer as it should.
 
 use super::answers::Answers;
 use super::memory::{Memory, Structures, viewpoint_of};
 use super::table::{Layer, Structure, Variant, brute, variants};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint};
 use spherule_referee::case::HexRay;
+use spherule_referee::scene::Scene;
 
 /// The bits of a hit: here -0 differs from 0, and a NaN equals itself.
 #[must_use]
@@ -12,52 +13,32 @@ pub fn bits(hit: Option<Hit>) -> Option<(u32, u32)> {
     hit.map(|hit| (hit.t.to_bits(), hit.sphere))
 }
 
-/// The first ray for which a tree or depth list of one of `tiers` does not answer, bit for bit, as brute force does.
-///
-/// In large scenes only variants with loops of their own are asked.
-#[must_use]
-pub fn difference(
-    tiers: &[Tier],
-    rays: &[Ray],
-    spheres: &[Sphere],
-    viewpoint: Viewpoint,
-) -> Option<String> {
-    let different = |structures: Structures<'_>, tier: Tier| {
-        let Answers { hits: expected, .. } = brute(tier).ask(structures, rays);
-        let asked = |variant: &Variant| match variant.layer {
-            _ if variant.tier != tier || variant.structure == Structure::List => false,
-            _ if !variant.holds(spheres.len()) => false,
-            // This structure has loops of one lane only.
-            Layer::Lanes(1) if variant.structure == Structure::Bvh4 => true,
-            Layer::Ray | Layer::SliceAt(_) => rays.len() * spheres.len() < 20_000,
-            // The same loops as the baseline's, in another width.
-            Layer::Lanes(1) => tier == Tier::Exact,
-            _ => true,
-        };
-        for variant in variants().filter(asked) {
-            let Answers { hits, occluded } = variant.ask(structures, rays);
-            for (i, ray) in rays.iter().enumerate() {
-                if bits(hits[i]) != bits(expected[i]) || occluded[i] != expected[i].is_some() {
-                    let (hit, occluded, expected) = (hits[i], occluded[i], expected[i]);
-                    let (rays, spheres) = (rays.len(), spheres.len());
-                    return Some(format!(
-                        "{variant:?}, ray {i} of {rays}, {spheres} spheres, {viewpoint:?}: {hit:?} \
-                         any {occluded}, by brute force {expected:?}; {}",
-                        HexRay(ray)
-                    ));
-                }
-            }
-        }
-        None
-    };
-    Memory::new(spheres)
-        .sorted(viewpoint, |structures| tiers.iter().find_map(|&tier| different(structures, tier)))
-}
-
-/// [`difference`] as a panic, the depth list sorted from the first ray's origin.
+/// Asserts that every variant that `is_asked` finds these closest hits, bit for bit, and any hit where there is one. The depth list is
+/// sorted from the first ray's origin.
 ///
 /// # Panics
-/// If there is a difference.
+/// If one does not.
+#[track_caller]
+pub fn assert_hits(
+    expected: &[Option<Hit>],
+    rays: &[Ray],
+    spheres: &[Sphere],
+    is_asked: &dyn Fn(&Variant) -> bool,
+) {
+    let ask = |structures: Structures<'_>| difference(expected, structures, rays, is_asked);
+    if let Some(difference) = Memory::new(spheres).sorted(viewpoint_of(rays), ask) {
+        let first = spheres.iter().take(100).copied().collect();
+        panic!("{difference}{:?}", Scene { rays: Vec::new(), spheres: first });
+    }
+}
+
+/// Asserts that every tree and depth list of one of `tiers` answers, bit for bit, as brute force does. The depth list is sorted from the
+/// first ray's origin.
+///
+/// In large scenes only variants with loops of their own are asked.
+///
+/// # Panics
+/// If one does not.
 #[track_caller]
 pub fn assert_same(tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
     assert_same_from(viewpoint_of(rays), tiers, rays, spheres);
@@ -69,7 +50,46 @@ pub fn assert_same(tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
 /// If there is a difference.
 #[track_caller]
 pub fn assert_same_from(viewpoint: Viewpoint, tiers: &[Tier], rays: &[Ray], spheres: &[Sphere]) {
-    if let Some(difference) = difference(tiers, rays, spheres, viewpoint) {
-        panic!("{difference}");
+    let of_tier = |structures: Structures<'_>, tier: Tier| {
+        let Answers { hits: expected, .. } = brute(tier).ask(structures, rays);
+        let is_asked = |variant: &Variant| match variant.layer {
+            _ if variant.tier != tier || variant.structure == Structure::List => false,
+            // This structure has loops of one lane only.
+            Layer::Lanes(1) if variant.structure == Structure::Bvh4 => true,
+            Layer::Ray | Layer::SliceAt(_) => rays.len() * spheres.len() < 20_000,
+            // The same loops as the baseline's, in another width.
+            Layer::Lanes(1) => tier == Tier::Exact,
+            _ => true,
+        };
+        difference(&expected, structures, rays, &is_asked)
+    };
+    let difference = Memory::new(spheres)
+        .sorted(viewpoint, |structures| tiers.iter().find_map(|&tier| of_tier(structures, tier)));
+    if let Some(difference) = difference {
+        panic!("{viewpoint:?}: {difference}");
     }
+}
+
+/// The first ray for which a variant that `is_asked` does not find what is expected.
+fn difference(
+    expected: &[Option<Hit>],
+    structures: Structures<'_>,
+    rays: &[Ray],
+    is_asked: &dyn Fn(&Variant) -> bool,
+) -> Option<String> {
+    let count = structures.list.spheres().len();
+    for variant in variants().filter(|variant| variant.holds(count) && is_asked(variant)) {
+        let Answers { hits, occluded } = variant.ask(structures, rays);
+        for (i, ray) in rays.iter().enumerate() {
+            let (hit, occluded, expected) = (hits[i], occluded[i], expected[i]);
+            if bits(hit) != bits(expected) || occluded != expected.is_some() {
+                let rays = rays.len();
+                return Some(format!(
+                    "{variant:?}, ray {i} of {rays}, {count} spheres: {hit:?} any {occluded}, not {expected:?}; {}",
+                    HexRay(ray)
+                ));
+            }
+        }
+    }
+    None
 }

@@ -1,7 +1,7 @@
 //! Ray i against sphere i alone, at every layer.
 
 use super::packing::{level, packed, stale_packet};
-use super::table::{Layer, levels};
+use super::table::{Layer, packet_layers};
 use spherule_kernel::{
     Hit, HitPacket, LaneArray, Lanes, Ray, Sphere, SpherePacket, Tier, f32x4, f32x8, f32x16,
     pair_lanes, pair_packets, pairs,
@@ -11,9 +11,7 @@ use std::vec::IntoIter;
 
 /// The layers at which pairs are intersected.
 pub fn pair_layers() -> IntoIter<Layer> {
-    let lanes = [1, 4, 8, 16].map(Layer::Lanes).into_iter();
-    let layers = lanes.chain([Layer::Slice]).chain(levels().map(Layer::Packets));
-    layers.collect::<Vec<_>>().into_iter()
+    packet_layers(Some(Layer::Slice))
 }
 
 /// The t of each case on its own.

@@ -1,7 +1,7 @@
 //! The surface at every hit, at every layer.
 
 use super::packing::{level, packed};
-use super::table::{Layer, levels};
+use super::table::{Layer, packet_layers};
 use spherule_kernel::{
     HitPacket, Intersect, LaneArray, Lanes, Level, Ray, RayPacket, Side, SphereList, Surface,
     SurfacePacket, Tier, Towards, Trace, Vec3, f32x4, f32x8, f32x16, shadow_lanes, shadow_packets,
@@ -11,9 +11,7 @@ use std::vec::IntoIter;
 
 /// The layers at which surfaces are computed.
 pub fn surface_layers() -> IntoIter<Layer> {
-    let lanes = [1, 4, 8, 16].map(Layer::Lanes).into_iter();
-    let layers = lanes.chain([Layer::Ray]).chain(levels().map(Layer::Packets));
-    layers.collect::<Vec<_>>().into_iter()
+    packet_layers(Some(Layer::Ray))
 }
 
 /// Rays in packets, what they hit, and the surfaces there.
@@ -113,19 +111,16 @@ pub fn shadow_rays_of(
                 let normal = surface.normal.as_dvec3();
                 let side = surface.incident_side(ray.direction);
                 let outward = if side == Side::Inside { -normal } else { normal };
-                let direction = match towards {
-                    Towards::Direction(direction) => direction,
-                    Towards::Point(point) => point - surface.position(&sphere),
-                };
-                if outward.dot(direction.as_dvec3()) <= 0.0 {
-                    return None;
-                }
-                match towards {
+                let (way, spawned) = match towards {
                     Towards::Direction(direction) => {
-                        surface.spawn_ray(tier, &sphere, side, direction)
+                        (direction, surface.spawn_ray(tier, &sphere, side, direction))
                     }
-                    Towards::Point(point) => surface.spawn_ray_to(tier, &sphere, side, point),
-                }
+                    Towards::Point(point) => (
+                        point - surface.position(&sphere),
+                        surface.spawn_ray_to(tier, &sphere, side, point),
+                    ),
+                };
+                if outward.dot(way.as_dvec3()) <= 0.0 { None } else { spawned }
             };
             rays.iter().map(|ray| one(ray).unwrap_or(Ray::INACTIVE)).collect()
         }

@@ -66,16 +66,25 @@ pub struct Variant {
 }
 
 /// The levels that this CPU has.
-pub fn levels() -> IntoIter<LevelName> {
-    let has = |&name: &LevelName| Level::named(name).is_some();
-    LevelName::ALL.into_iter().filter(has).collect::<Vec<_>>().into_iter()
+pub fn levels() -> IntoIter<Level> {
+    LevelName::ALL.into_iter().filter_map(Level::named).collect::<Vec<_>>().into_iter()
+}
+
+/// Packets of the caller's vectors in every width, packets at every level, and `other`.
+pub(super) fn packet_layers(other: Option<Layer>) -> IntoIter<Layer> {
+    let lanes = [1, 4, 8, 16].map(Layer::Lanes).into_iter();
+    lanes.chain(leveled_packets()).chain(other).collect::<Vec<_>>().into_iter()
+}
+
+fn leveled_packets() -> Vec<Layer> {
+    levels().map(|level| Layer::Packets(level.name())).collect()
 }
 
 /// The whole table. Lists have every lane width. The larger structures have two widths, since their source is the same
 /// in every width.
 pub fn variants() -> IntoIter<Variant> {
     let plain = vec![Layer::Ray, Layer::Slice, Layer::Columns];
-    let packets: Vec<Layer> = levels().map(Layer::Packets).collect();
+    let packets = leveled_packets();
     let best = vec![Layer::Packets(Level::best().name())];
     let all = |lanes: &[usize]| -> Vec<Layer> {
         let leveled = [&[Layer::SliceAt(LevelName::Baseline)], packets.as_slice()].concat();

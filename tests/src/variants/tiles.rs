@@ -4,18 +4,12 @@ use super::answers::Answers;
 use super::difference::bits;
 use super::memory::{Memory, Structures};
 use super::packing::{level, stale_packet};
-use super::table::{Layer, brute, levels};
+use super::table::{Layer, brute, packet_layers};
 use spherule_kernel::{
     Camera, CameraTiles, DepthList, Hit, HitPacket, Intersect, LaneArray, Lanes, Projection, Ray,
     RayPacket, Sphere, Tier, Trace, Vec3, Viewpoint, f32x4, f32x8, f32x16,
 };
 use spherule_referee::case::HexRay;
-
-/// The layers at which tiles are traced.
-fn tile_layers() -> impl Iterator<Item = Layer> {
-    let lanes = [1, 4, 8, 16].map(Layer::Lanes).into_iter();
-    lanes.chain(levels().map(Layer::Packets))
-}
 
 /// A camera's picture, from some pixel on.
 #[derive(Clone, Copy, Debug)]
@@ -32,16 +26,14 @@ pub struct Frame {
 
 impl Frame {
     /// The first pixels of its tiles.
-    #[must_use]
-    pub fn corners<A: LaneArray>(&self) -> Vec<(u32, u32)> {
+    fn corners<A: LaneArray>(&self) -> Vec<(u32, u32)> {
         Camera::tile_corners::<A>(self.count.0, self.count.1)
             .map(|(x, y)| (self.from.0.saturating_add(x), self.from.1.saturating_add(y)))
             .collect()
     }
 
     /// The origin or direction that all rays share.
-    #[must_use]
-    pub fn viewpoint(&self) -> Viewpoint {
+    fn viewpoint(&self) -> Viewpoint {
         match self.camera.projection {
             Projection::Perspective { eye } => Viewpoint::Origin(eye),
             Projection::Parallel { direction } => Viewpoint::Direction(direction),
@@ -49,14 +41,17 @@ impl Frame {
     }
 }
 
-/// Where tiles of a frame are not answered, bit for bit, as brute force answers the rays of their pixels, or where other rays are left.
+/// Asserts that tiles of a frame are answered, bit for bit, as brute force answers the rays of their pixels, and that these rays are left.
 /// Asks `tiers` that promise the same bits, in every structure. As in the table of variants, lists have every width, the larger structures
 /// two.
-#[must_use]
-pub fn tile_difference(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) -> Option<String> {
-    Memory::new(spheres).sorted(frame.viewpoint(), |structures| {
+///
+/// # Panics
+/// If there is a difference.
+#[track_caller]
+pub fn assert_same_tiles(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) {
+    let difference = Memory::new(spheres).sorted(frame.viewpoint(), |structures| {
         tiers.iter().find_map(|&tier| {
-            tile_layers().find_map(|layer| {
+            packet_layers(None).find_map(|layer| {
                 let question = Question { tier, layer, frame, structures };
                 match layer {
                     Layer::Lanes(1) => question.different::<f32>(every_structure::<f32>),
@@ -67,16 +62,8 @@ pub fn tile_difference(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) -> Opt
                 }
             })
         })
-    })
-}
-
-/// [`tile_difference`] as a panic.
-///
-/// # Panics
-/// If there is one.
-#[track_caller]
-pub fn assert_same_tiles(tiers: &[Tier], frame: &Frame, spheres: &[Sphere]) {
-    if let Some(difference) = tile_difference(tiers, frame, spheres) {
+    });
+    if let Some(difference) = difference {
         panic!("{difference}");
     }
 }
