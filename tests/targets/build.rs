@@ -1,10 +1,8 @@
-//! Tells the linker the memory of the boards, and what a module exports. Also builds a tree as data.
+//! Tells the linker the memory of the boards, and what a module exports.
 
 fn main() {
     let of_cargo = |name: &str| std::env::var(name).expect("cargo sets it");
     println!("cargo:rerun-if-changed=memory.x");
-    let source = spherule_baking::source();
-    std::fs::write(format!("{}/baked.rs", of_cargo("OUT_DIR")), source).expect("cargo's place");
     let target = of_cargo("TARGET");
     if target.starts_with("thumb") {
         println!("cargo:rustc-link-search={}", of_cargo("CARGO_MANIFEST_DIR"));

@@ -49,7 +49,7 @@ pub fn float_environment_is_sound() -> bool {
 
 #[cfg(all(test, proofs))]
 mod tests {
-    // `false` needs another environment, which only unsafe code can set: see tests/machine.
+    // `false` needs another environment, which only unsafe code can set: see tests/targets.
     #[test]
     fn the_machine_that_runs_this_is_sound() {
         assert!(super::float_environment_is_sound());

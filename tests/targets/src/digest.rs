@@ -6,7 +6,7 @@ mod surfaces;
 
 use crate::numbers::print_hexadecimal;
 use crate::platform::print;
-use fnv::Fnv;
+pub use fnv::Fnv;
 use questions::Asked;
 use spherule_kernel::{Level, LevelName, Tier};
 

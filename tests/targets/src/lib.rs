@@ -4,9 +4,6 @@
 
 pub mod cases;
 pub mod digest;
-pub mod many;
 pub mod numbers;
-#[cfg(all(target_arch = "arm", target_os = "none"))]
-pub mod painted_stack;
 pub mod platform;
 pub mod scene;

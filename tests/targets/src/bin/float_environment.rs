@@ -38,6 +38,26 @@ mod control {
     }
 }
 
+/// The bits of `MXCSR`, which SSE computes by.
+#[cfg(target_arch = "x86_64")]
+mod control {
+    pub(super) const MODES: &[(u32, &str)] = &[
+        (0x8000, "MXCSR.FTZ, subnormal results are flushed"),
+        (0x0040, "MXCSR.DAZ, subnormal operands are flushed"),
+        (0x8040, "MXCSR.FTZ and DAZ"),
+        (0x4000, "MXCSR.RC, up"),
+        (0x2000, "MXCSR.RC, down"),
+        (0x6000, "MXCSR.RC, to zero"),
+    ];
+    /// Every exception is masked.
+    const DEFAULT: u32 = 0x1f80;
+
+    pub(super) fn set(bits: u32) {
+        // SAFETY: the bits are set back before Rust computes anything except the question asked under them.
+        unsafe { core::arch::asm!("ldmxcsr [{}]", in(reg) &(DEFAULT | bits), options(nostack)) }
+    }
+}
+
 /// The rounding modes of RISC-V's `frm`: to zero, down, up, and ties away from zero. RISC-V has no flushing.
 #[cfg(all(target_arch = "riscv32", target_feature = "f"))]
 mod control {
@@ -68,11 +88,12 @@ mod control {
     }
 }
 
-/// A library computes the numbers, or the target has only one environment: nothing can be set. (x86-64's are in `tests/machine`.)
+/// A library computes the numbers, or the target has only one environment: nothing can be set.
 #[cfg(not(any(
     all(target_arch = "arm", target_abi = "eabihf"),
     all(target_arch = "riscv32", target_feature = "f"),
     target_arch = "aarch64",
+    target_arch = "x86_64",
 )))]
 mod control {
     pub(super) const MODES: &[(u32, &str)] = &[];

@@ -2,38 +2,32 @@
 //! ulp away in some numbers. Bits throughout.
 
 use spherule_kernel::{Ray, Sphere, Vec3};
-
-/// A ray and its sphere.
-#[derive(Clone, Copy)]
-pub(crate) struct Case {
-    pub(crate) ray: Ray,
-    pub(crate) sphere: Sphere,
-}
+use spherule_targets::cases::{Case, Random};
 
 /// How many cases are kept.
 pub(crate) const KEPT: usize = 660;
-const RELATIVES: u64 = 40;
+const RELATIVES: usize = 40;
 
 /// All cases, the kept ones first.
 ///
 /// # Panics
 /// If the file does not have the form that its head describes.
 pub(crate) fn all() -> Vec<Case> {
-    let text = include_str!("../../cases/regimes.txt");
+    let text = include_str!("../../../../cases/regimes.txt");
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     let kept: Vec<[u32; 12]> = lines.map(numbers).collect();
     assert_eq!(kept.len(), KEPT, "as many cases as are kept");
 
     let mut all = kept.clone();
-    let mut state = 1;
+    let mut random = Random(1);
     for (index, bits) in kept.iter().enumerate() {
         for _ in 0..RELATIVES {
             let mut relative = *bits;
             for (place, number) in relative.iter_mut().enumerate() {
-                match random(&mut state) % 8 {
-                    0 => *number = number.wrapping_add((random(&mut state) % 5) as u32),
-                    1 => *number = number.wrapping_sub((random(&mut state) % 5) as u32),
-                    2 if random(&mut state).is_multiple_of(4) => {
+                match random.bits() % 8 {
+                    0 => *number = number.wrapping_add(random.bits() % 5),
+                    1 => *number = number.wrapping_sub(random.bits() % 5),
+                    2 if random.bits().is_multiple_of(4) => {
                         *number = kept[(index + 1) % KEPT][place];
                     }
                     _ => {}
@@ -59,12 +53,4 @@ fn case(bits: [u32; 12]) -> Case {
     let (origin, direction) = (Vec3::new(ox, oy, oz), Vec3::new(dx, dy, dz));
     let ray = Ray { origin, direction, t_min, t_max };
     Case { ray, sphere: Sphere { center: Vec3::new(cx, cy, cz), radius } }
-}
-
-/// `SplitMix64`.
-fn random(state: &mut u64) -> u64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let z = (*state ^ (*state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }

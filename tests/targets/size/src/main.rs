@@ -5,12 +5,15 @@
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
 #[cfg(target_os = "none")]
-#[path = "size/ways.rs"]
+mod many;
+#[cfg(all(target_arch = "arm", target_os = "none"))]
+mod painted_stack;
+#[cfg(target_os = "none")]
 mod ways;
 
 #[cfg(target_os = "none")]
 fn run() -> bool {
-    use spherule_targets::{numbers, painted_stack, platform, scene};
+    use spherule_targets::{numbers, platform, scene};
 
     let measured = painted_stack::measure(ways::draw);
     numbers::print_decimal(measured.stack);

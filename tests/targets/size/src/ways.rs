@@ -1,11 +1,12 @@
 //! The ways to draw a picture, of which one is compiled.
 
 mod hard;
-#[path = "../../../../../kernel/examples/firmware/src/hardware_root.rs"]
+#[path = "../../../../kernel/examples/firmware/src/hardware_root.rs"]
 mod hardware_root;
 mod memory;
 mod program_name;
 
+use crate::many::{self, BAKED_TREE};
 use core::hint::black_box;
 use core::sync::atomic::{AtomicU8, Ordering::Relaxed};
 use hardware_root::HardwareRoot;
@@ -15,7 +16,6 @@ use spherule_kernel::{
     Bvh, Bvh4, BvhNode, BvhSize, Exact, Fast, Geometric, HitPacket, Intersect, Ray, RayPacket,
     SpherePacket, Spheres, Stable, Trace, f32x4, pair_lanes, roots,
 };
-use spherule_targets::many::{self, BAKED_TREE};
 use spherule_targets::scene::{self, HEIGHT, WIDTH};
 
 const PIXELS: usize = (WIDTH * HEIGHT) as usize;

@@ -1,48 +1,30 @@
 //! Prints a digest of every tier's answers in every lane width, which no build may change.
 //!
 //! The cases are those of `tests/cases/regimes.txt`, given as bits, and others a few ulp away; only the kernel computes
-//! with floats here. The digest is FNV-1a over the bits of every t and every index: of the pairs, of the closest hits
-//! in the list of all spheres and the surfaces there, and of both roots. `--control` changes one bit of the radius of
-//! the first sphere that is hit.
+//! with floats here. The digest has the bits of every t and every index: of the pairs, of the closest hits in the list
+//! of all spheres and the surfaces there, and of both roots. An argument changes one bit of the radius of the first
+//! sphere that is hit.
 
+#[path = "regimes/cases.rs"]
 mod cases;
 
-use cases::Case;
 use spherule_kernel::{
     HitColumns, HitPacket, Intersect, Lanes, Ray, RayColumns, RayPacket, Sphere, SpherePacket,
     Spheres, SurfacePacket, Tier, Trace, f32x4, f32x8, f32x16, pair_lanes, roots, surface_lanes,
 };
+use spherule_targets::cases::Case;
+use spherule_targets::digest::Fnv;
 use std::process::ExitCode;
-
-/// FNV-1a, of 64 bits.
-struct Fnv(u64);
-
-impl Fnv {
-    const fn new() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-
-    fn word(&mut self, word: u32) {
-        for byte in word.to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
-    }
-
-    /// Adds the bits of `t`. Of a NaN, which the roots of `Fast` and `Geometric` may be, adds only that it is one.
-    fn t(&mut self, t: f32) {
-        self.word(if t.is_nan() { u32::MAX } else { t.to_bits() });
-    }
-}
 
 /// The digest of a tier in a width. Leaves out the index of a pair's sphere, since that is its lane.
 fn digest<L: Lanes<Token = ()>>(tier: Tier, cases: &[Case]) -> u64 {
-    let mut fnv = Fnv::new();
+    let mut fnv = Fnv::new(false);
     for cases in cases.chunks(L::COUNT) {
         let rays: Vec<_> = cases.iter().map(|case| case.ray).collect();
         let spheres: Vec<Sphere> = cases.iter().map(|case| case.sphere).collect();
         let (rays, spheres) = (RayPacket::new(&rays), SpherePacket::new(&spheres));
         let hits = pair_lanes::<L>(tier, (), &rays, &spheres);
-        hits.t().iter().take(cases.len()).for_each(|&t| fnv.t(t));
+        hits.t().iter().take(cases.len()).for_each(|&t| fnv.number(t));
     }
 
     let kept = &cases[..cases::KEPT];
@@ -57,7 +39,7 @@ fn digest<L: Lanes<Token = ()>>(tier: Tier, cases: &[Case]) -> u64 {
         lists::<L>(&mut fnv, tier, &kept[first..end], part.unwrap_or(list));
     }
     lists::<L>(&mut fnv, tier, kept, list);
-    fnv.0
+    fnv.digest
 }
 
 fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], spheres: Spheres<'_>) {
@@ -81,10 +63,9 @@ fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], sphere
     let found = HitColumns { t: &mut t, sphere: &mut sphere };
     spheres.closest_hit_columns(tier, &mut Trace::new(), columns, found);
     for ray in 0..rays.len() {
-        slice[ray].into_iter().for_each(|hit| fnv.t(hit.t));
-        fnv.word(slice[ray].map_or(u32::MAX, |hit| hit.sphere));
+        fnv.hit(slice[ray]);
         fnv.word(u32::from(occluded[ray]));
-        fnv.t(t[ray]);
+        fnv.number(t[ray]);
         fnv.word(sphere[ray]);
     }
 
@@ -95,7 +76,7 @@ fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], sphere
     // Ray by ray, since packet by packet would be another order in every width.
     for ray in 0..rays.len() {
         let (packet, lane) = (ray / L::COUNT, ray % L::COUNT);
-        fnv.t(hits[packet].t()[lane]);
+        fnv.number(hits[packet].t()[lane]);
         fnv.word(hits[packet].spheres()[lane]);
         fnv.word(occluded[packet] >> lane & 1);
         let (rays, hits) = (&packets[packet], &hits[packet]);
@@ -103,7 +84,7 @@ fn lists<L: Lanes<Token = ()>>(fnv: &mut Fnv, tier: Tier, cases: &[Case], sphere
             surfaces = surface_lanes::<L>(tier, (), spheres, rays, hits);
         }
         let (normal, point) = (surfaces.normal(lane), surfaces.point(lane));
-        normal.to_array().into_iter().chain(point.to_array()).for_each(|x| fnv.t(x));
+        normal.to_array().into_iter().chain(point.to_array()).for_each(|x| fnv.number(x));
     }
 }
 
@@ -117,22 +98,22 @@ fn widths(tier: Tier, cases: &[Case]) -> bool {
         digest::<f32x16>(tier, cases),
     ];
     for (lanes, digest) in [1, 4, 8, 16].into_iter().zip(digests) {
-        println!("digest: {name} {lanes} lanes {digest:016x}");
+        println!("{name} {lanes} lanes {digest:016x}");
     }
-    let mut fnv = Fnv::new();
+    let mut fnv = Fnv::new(false);
     for case in cases {
         match roots(tier, &case.ray, &case.sphere) {
-            Some(roots) => roots.into_iter().for_each(|t| fnv.t(t)),
+            Some(roots) => roots.into_iter().for_each(|t| fnv.number(t)),
             None => fnv.word(0),
         }
     }
-    println!("digest: {name} roots {:016x}", fnv.0);
+    println!("{name} roots {:016x}", fnv.digest);
     digests.iter().all(|digest| *digest == digests[0])
 }
 
 fn main() -> ExitCode {
     let mut cases = cases::all();
-    if std::env::args().nth(1).as_deref() == Some("--control") {
+    if std::env::args().len() > 1 {
         let hit = cases.iter_mut().find(|c| roots(Tier::Exact, &c.ray, &c.sphere).is_some());
         let radius = &mut hit.expect("a hit").sphere.radius;
         *radius = f32::from_bits(radius.to_bits() ^ 1 << 12);
@@ -140,7 +121,7 @@ fn main() -> ExitCode {
     let agree =
         [Tier::Fast, Tier::Stable, Tier::Exact, Tier::Geometric].map(|tier| widths(tier, &cases));
     if agree.contains(&false) {
-        eprintln!("digest: FAILED: a lane width differs from another");
+        eprintln!("FAILED: a lane width differs from another");
         return ExitCode::FAILURE;
     }
     ExitCode::SUCCESS
