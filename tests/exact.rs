@@ -111,6 +111,7 @@ fn the_closest_of_many_hard_spheres_is_the_oracles() {
     let scenes = count() / 30;
     let (mut hits, mut equal) = (0, 0);
     for family in FAMILIES {
+        println!("{family:?}");
         for scene in 0..scenes {
             let cases: Vec<Case> =
                 (0..9).map(|index| family.case(first() + scene * 9 + index)).collect();

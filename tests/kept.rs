@@ -1,8 +1,8 @@
 //! The cases in files: our kept cases, and the vectors of another hand.
 //!
 //! `tests/cases/regimes.txt` holds one case a line: the regime's number, the bits of the twelve numbers of a case, and
-//! the bits of the hit's t, or `miss`, in hexadecimal. Lines that start with `#` say where the cases come from. A
-//! reader needs neither our generator nor our oracle, so a change of either is noticed.
+//! the bits of the hit's t, or `miss`, in hexadecimal. Lines that start with `#` say where the cases come from. The
+//! file is compared as text, so a change of generator or oracle is noticed.
 
 use spherule_referee::families::HARD;
 use spherule_tests::{oracle, vectors};

@@ -19,6 +19,7 @@ use std::time::Duration;
 
 /// Embree's call of one ray, among its engines.
 const ONE_RAY: &str = "1 rays a call";
+
 /// What was timed: one of the kernel's calls, or Embree's call of one ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Timed {

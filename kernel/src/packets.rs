@@ -1,12 +1,5 @@
 //! Functions that need no structure, packet by packet at a level: pairs, tiles of a camera, object order, surfaces, shadow
 //! rays.
-#![cfg_attr(
-    not(feature = "std"),
-    expect(
-        unused_variables,
-        reason = "there is one level, whose code is called where it is known"
-    )
-)]
 
 use crate::Accuracy;
 use crate::dispatch::Level;
@@ -50,7 +43,10 @@ pub fn pair_packets(
     #[cfg(feature = "std")]
     crate::dispatch::compiled::pairs(level, tier.tier(), rays, spheres, hits);
     #[cfg(not(feature = "std"))]
-    linear::each_pair::<wide::f32x16>(tier, (), rays, spheres, hits);
+    {
+        let _ = level;
+        linear::each_pair::<wide::f32x16>(tier, (), rays, spheres, hits);
+    }
 }
 
 /// Makes the rays of a camera's tiles at `level`. Those of tile `i` go to packet `i`, as far as there are tiles and packets.
@@ -75,7 +71,10 @@ pub fn tile_rays(level: Level, tiles: CameraTiles<'_>, rays: &mut [RayPacket]) {
     #[cfg(feature = "std")]
     crate::dispatch::compiled::fill_tiles(level, tiles, rays);
     #[cfg(not(feature = "std"))]
-    tiles.fill::<wide::f32x16>((), tiles.corners, rays);
+    {
+        let _ = level;
+        tiles.fill::<wide::f32x16>((), tiles.corners, rays);
+    }
 }
 
 /// Tests sphere `index` of a list against the rays of the packets that `numbers` names: object order. `hits` are the closest
@@ -110,6 +109,7 @@ pub fn object_packets(
     }
     #[cfg(not(feature = "std"))]
     {
+        let _ = level;
         linear::one_object::<wide::f32x16>(tier, (), object, numbers, rays, hits)
     }
 }
@@ -143,7 +143,10 @@ pub fn surface_packets(
     #[cfg(feature = "std")]
     crate::dispatch::compiled::surfaces(level, tier.tier(), spheres, (rays, hits), surfaces);
     #[cfg(not(feature = "std"))]
-    surface::each_packet::<wide::f32x16>(tier, (), spheres, rays, hits, surfaces);
+    {
+        let _ = level;
+        surface::each_packet::<wide::f32x16>(tier, (), spheres, rays, hits, surfaces);
+    }
 }
 
 /// Makes rays to a light from the hits of every packet. Each begins on the side of the surface that its ray came from; where
@@ -183,7 +186,10 @@ pub fn shadow_packets(
     #[cfg(feature = "std")]
     crate::dispatch::compiled::shadows(level, tier.tier(), spheres, hit, towards, shadow_rays);
     #[cfg(not(feature = "std"))]
-    packets::each_packet::<wide::f32x16>(tier, (), spheres, hit, towards, shadow_rays);
+    {
+        let _ = level;
+        packets::each_packet::<wide::f32x16>(tier, (), spheres, hit, towards, shadow_rays);
+    }
 }
 
 /// Tests ray `i` against sphere `i` alone, at the best level that the CPU has; the sphere of a hit is `i`.

@@ -6,7 +6,7 @@ use super::{BOTH, EXACT};
 use spherule_kernel::{Ray, Sphere, Tier, Vec3};
 use spherule_referee::random::{Random, power_of_two};
 use spherule_tests::scenes::{scaled_ray, scaled_sphere};
-use spherule_tests::variants::{assert_same, bits, brute};
+use spherule_tests::variants::{Layer, Structure, Variant, assert_same, bits, brute};
 
 fn scaled(spheres: &[Sphere], exponent: i64) -> Vec<Sphere> {
     spheres.iter().map(|sphere| scaled_sphere(sphere, exponent)).collect()
@@ -38,8 +38,9 @@ fn scaled_scenes_have_scaled_answers() {
                 continue;
             }
             for &tier in if stable { BOTH } else { EXACT } {
-                let expected = brute(tier).closest(&unscaled, &rays);
-                let found = brute(tier).closest(&spheres, &rays_here);
+                let slices = Variant { tier, structure: Structure::List, layer: Layer::Slice };
+                let expected = slices.closest(&unscaled, &rays);
+                let found = slices.closest(&spheres, &rays_here);
                 for (expected, found) in expected.iter().zip(&found) {
                     let expected = expected.map(|hit| {
                         let t = f64::from(hit.t) * power_of_two(by);

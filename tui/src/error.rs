@@ -32,10 +32,9 @@ impl Error {
     }
 
     /// The same of an output to the file `path`; `-` is standard output.
-    #[must_use]
-    pub fn of_file(path: &Path, error: &io::Error) -> Self {
-        let is_stdout = path == Path::new("-");
-        let name = if is_stdout { "standard output".into() } else { path.to_string_lossy() };
+    pub(crate) fn of_file(path: &Path, error: &io::Error) -> Self {
+        let name =
+            if path == Path::new("-") { "standard output".into() } else { path.to_string_lossy() };
         Self::of_output(&name, error)
     }
 

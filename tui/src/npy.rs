@@ -184,8 +184,7 @@ pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<[f32; N]>, Error> {
 }
 
 /// The ray of a row: origin, direction, `t_min`, `t_max`.
-#[must_use]
-pub fn ray([x, y, z, dx, dy, dz, t_min, t_max]: [f32; 8]) -> Ray {
+pub(crate) fn ray([x, y, z, dx, dy, dz, t_min, t_max]: [f32; 8]) -> Ray {
     Ray { origin: Vec3::new(x, y, z), direction: Vec3::new(dx, dy, dz), t_min, t_max }
 }
 

@@ -158,7 +158,7 @@ mod tests {
         assert_eq!((ray((8, 0)), ray((0, 4)), ray((u16::MAX, u16::MAX))), (None, None, None));
     }
 
-    /// (`tests/program/pick.rs` has the unit sphere, worked by hand.)
+    /// The unit sphere is worked by hand in `tui/tests/program/pick.rs`.
     #[test]
     fn of_nothing_nothing_is_told() {
         let nothing = Scene::new();

@@ -1,6 +1,4 @@
 //! The ways in which a caller can have rays traced, whatever their order.
-//!
-//! Only this module of the report names what the kernel offers.
 
 use crate::engine::Query;
 use crate::forms::{Answer, Forms, answer};

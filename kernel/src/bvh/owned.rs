@@ -74,6 +74,10 @@ impl SphereTree {
     pub fn build_with(join: &impl Join, spheres: SphereList) -> Result<Self, TryReserveError> {
         let needed = Bvh::needed(spheres.spheres().len());
         let (mut nodes, mut places, mut indices) = (Vec::new(), Vec::new(), Vec::new());
+        // Nothing is written before there is memory for all.
+        nodes.try_reserve_exact(needed.nodes)?;
+        places.try_reserve_exact(needed.places)?;
+        indices.try_reserve_exact(needed.places)?;
         lengthen(&mut nodes, BvhNode::EMPTY, needed.nodes)?;
         lengthen(&mut places, [0.0; 4], needed.places)?;
         lengthen(&mut indices, 0, needed.places)?;

@@ -27,8 +27,9 @@ pub fn assert_hits(
 ) {
     let ask = |structures: Structures<'_>| difference(expected, structures, rays, is_asked);
     if let Some(difference) = Memory::new(spheres).sorted(viewpoint_of(rays), ask) {
-        let first = spheres.iter().take(100).copied().collect();
-        panic!("{difference}{:?}", Scene { rays: Vec::new(), spheres: first });
+        let spheres = spheres.iter().take(100).copied().collect();
+        let rays = rays.iter().take(100).copied().collect();
+        panic!("{difference}{:?}", Scene { rays, spheres });
     }
 }
 
@@ -80,6 +81,8 @@ fn difference(
     let count = structures.list.spheres().len();
     for variant in variants().filter(|variant| variant.holds(count) && is_asked(variant)) {
         let Answers { hits, occluded } = variant.ask(structures, rays);
+        let counts = [hits.len(), occluded.len(), expected.len()];
+        assert_eq!(counts, [rays.len(); 3], "{variant:?}");
         for (i, ray) in rays.iter().enumerate() {
             let (hit, occluded, expected) = (hits[i], occluded[i], expected[i]);
             if bits(hit) != bits(expected) || occluded != expected.is_some() {

@@ -14,7 +14,7 @@ fn is_caught() -> bool {
 }
 
 /// From now on `act` is called before a panic is told of. Of one that is caught no one is told.
-pub fn before_message(act: impl Fn() + Send + Sync + 'static) {
+pub(crate) fn before_message(act: impl Fn() + Send + Sync + 'static) {
     let print = panic::take_hook();
     panic::set_hook(Box::new(move |panic| {
         if !is_caught() {

@@ -65,8 +65,7 @@ pub struct Own {
 
 impl NumberColumn {
     /// A column without numbers yet.
-    #[must_use]
-    pub fn named(name: impl Into<Box<str>>) -> Self {
+    pub(crate) fn named(name: impl Into<Box<str>>) -> Self {
         Self { name: name.into(), values: Vec::new() }
     }
 }

@@ -35,8 +35,7 @@ impl ReadError {
     }
 
     /// About a byte of a file that is all in `text`.
-    #[must_use]
-    pub fn in_text(source: &str, text: &str, byte: usize, what: impl Into<String>) -> Self {
+    pub(super) fn in_text(source: &str, text: &str, byte: usize, what: impl Into<String>) -> Self {
         let before = text.get(..byte).unwrap_or(text);
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|&letter| letter != '\n').count() + 1;

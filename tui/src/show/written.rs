@@ -1,4 +1,4 @@
-//! What is written without the viewer: a recording, an image, a pick, a picture in pixels or in cells, those of the frames that follow.
+//! What is written without the viewer: a recording, an image, a pick, a picture in pixels or in cells, and those of the frames that follow.
 
 use super::cast;
 use super::once::Once;

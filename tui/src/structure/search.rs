@@ -101,7 +101,8 @@ impl Search<'_> {
         hits: &mut [HitPacket],
     ) {
         let tier = tracing.tier;
-        for part in self.parts(rays.len(), threads) {
+        let count = rays.len().min(hits.len()).min(tiles.corners.len());
+        for part in self.parts(count, threads) {
             let tiles = CameraTiles { corners: &tiles.corners[part.clone()], ..tiles };
             let (rays, hits) = (&mut rays[part.clone()], &mut hits[part]);
             let (mut trace, raster) = scratch.of(self, tracing);

@@ -56,6 +56,10 @@ fn standard_input_that_is_no_text() {
     assert!(refused("-", b"\xfd\xfe\n").contains("unknown format"));
     assert!(refused("-", b"\xff\xfe\n\0").contains("UTF-16 text"));
     assert!(refused("- --format toml", b"\xff\xfe\n").starts_with("-:1: not valid UTF-8"));
+    let marked = b"\xef\xbb\xbf\n\n\xff\n";
+    assert!(refused("- --format toml", marked).starts_with("-:3: not valid UTF-8"));
+    let robot = b"<robot>\n\xff</robot>\n";
+    assert!(refused("- --format urdf", robot).starts_with("-:2: not valid UTF-8"));
 }
 
 /// The content tells, not the name.

@@ -1,7 +1,7 @@
 //! `spherule cases` and `spherule judge`: what one writes the other judges, and what both refuse.
 
 use crate::run::{
-    array, failure, file, folder, names, npy, printed, prints, refusal, refuses, run,
+    array, failure, file, folder, json, names, npy, printed, prints, refusal, refuses, run,
     run_with_input,
 };
 use serde_json::Value;
@@ -56,8 +56,7 @@ impl Files {
     }
 
     fn report(&self, options: &str) -> Value {
-        let text = prints(&self.judge(&format!("--json --family {} {options}", self.family)));
-        serde_json::from_str(&text).expect("JSON")
+        json(&self.judge(&format!("--json --family {} {options}", self.family)))
     }
 }
 
@@ -122,7 +121,7 @@ fn rays_that_share_spheres_are_judged_with_what_they_name() {
     ]
     .map(|(name, bytes)| file(&format!("judge-shared.{name}.npy"), bytes));
     let files = Files { spheres, rays, family, t, id };
-    let report = files.report(&format!("--id {}", files.id));
+    let report = json(&format!("{} --id {}", files.judge("--json"), files.id));
     let counts = &report["all"]["by_rules"];
     let found = KINDS.map(|kind| counts[kind].as_u64());
     assert_eq!(found, [0, 0, 1, 1, 0, 0].map(Some), "{report}");

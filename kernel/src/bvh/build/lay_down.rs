@@ -52,17 +52,23 @@ pub(super) fn lay_down(
 /// then. No tree is deeper than ten nodes.
 fn lay_down_leaves(nodes: &mut [BvhNode], child: u32, settle: &mut impl FnMut(u32) -> u32) -> u32 {
     if child & LEAF != 0 {
-        return if child == NO_CHILD { child } else { settle(child) };
+        return if child == NO_CHILD { child } else { settled(settle, child) };
     }
     // Children stand in the order of their spheres.
     for slot in 0..WIDTH {
         let Some(below) = nodes.get(child as usize).map(|node| node.child[slot]) else { break };
-        let settled = lay_down_leaves(nodes, below, settle);
+        let below = lay_down_leaves(nodes, below, settle);
         if let Some(node) = nodes.get_mut(child as usize) {
-            node.child[slot] = settled;
+            node.child[slot] = below;
         }
     }
     child
+}
+
+/// Calls `settle`. (Not inlined: each node on the way would keep room on the stack for a leaf.)
+#[inline(never)]
+fn settled(settle: &mut impl FnMut(u32) -> u32, leaf: u32) -> u32 {
+    settle(leaf)
 }
 
 /// The spheres of a leaf, column by column.

@@ -137,6 +137,7 @@ fn doubles<L: Lanes<Token = ()>>() {
 #[test]
 fn every_width_computes_what_one_lane_does() {
     fn both<L: Lanes<Token = ()>>() {
+        std::println!("{} lanes", L::COUNT);
         singles::<L>();
         doubles::<L>();
     }

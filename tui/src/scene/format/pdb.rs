@@ -100,7 +100,7 @@ impl Atoms {
             return Err(line.error(bytes.len(), "the line ends before column 54: no coordinates"));
         };
         let name = [fixed[12], fixed[13], fixed[14], fixed[15]];
-        // Its chain, number and insertion.
+        // Chain, number and insertion tell a residue.
         self.locations.enter(&fixed[21..27]);
         if fixed[16] != b' ' && !self.locations.is_first(&name) {
             return Ok(());

@@ -58,7 +58,7 @@ impl Stated {
         ReadError::at(source, self.line, 1, what).of_empty_frame()
     }
 
-    /// The error that `line` is a further one.
+    /// The error that `line` is a further atom.
     pub(super) fn one_more(&self, line: &Line<'_>) -> ReadError {
         let Self { count, line: first, .. } = self;
         line.error(0, format!("one atom more than the {count} that line {first} says"))

@@ -87,7 +87,7 @@ pub(super) fn skip(input: &mut Input) -> Result<bool, ReadError> {
         return Ok(false);
     }
     let stated = count_line(input)?;
-    // Its comment.
+    // The comment is a line, too.
     stated.next(input, 0)?;
     stated.skip(input)?;
     Ok(true)

@@ -139,7 +139,7 @@ fn check_next(input: &mut Input, stated: Stated, words: usize) -> Result<(), Rea
 /// [`ReadError`] if it is no valid frame.
 pub(in super::super) fn skip(input: &mut Input) -> Result<bool, ReadError> {
     let Some((stated, _)) = header(input)? else { return Ok(false) };
-    // The names of columns.
+    // The names of columns are a line, too.
     stated.next(input, 0)?;
     stated.skip(input)?;
     Ok(true)

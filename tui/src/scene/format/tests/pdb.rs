@@ -10,6 +10,9 @@ fn pdb_by_its_columns() {
     assert_eq!(scene.label(1).as_deref(), Some("CA ALA 1 A"));
     // A000 is what follows 9999.
     assert_eq!(scene.label(2).as_deref(), Some("FE HEM 10000 B"));
+    // a000 is what follows ZZZZ.
+    let small = good(PDB.replace("BA000", "Ba000"));
+    assert_eq!(small.label(2).as_deref(), Some("FE HEM 1223056 B"));
     assert_eq!(scene.attributes().elements, Some(vec![7, 6, 26]));
     assert_eq!(scene.attributes().column("b_factor").map(|b| b.values[1]), Some(11.0));
     let frames = &mut film("alt.pdb", PDB);
