@@ -17,9 +17,9 @@ use std::process::Command;
 /// Where figures come from, in one line: CPU, compiler, instructions, commit and date.
 pub(crate) fn origin() -> String {
     let here = Path::new(".");
-    let commit = output_of(here, "git", &["describe", "--always", "--exclude=*"]);
-    let changes = if has_changes(here) { "+changes" } else { "" };
-    let date = output_of(here, "date", &["-u", "+%Y-%m-%d %H:%M UTC"]);
+    let commit = commit(here).unwrap_or_default();
+    let changes = if has_changes(here) == Some(true) { "+changes" } else { "" };
+    let date = output_of(here, "date", &["-u", "+%Y-%m-%d %H:%M UTC"]).unwrap_or_default();
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     format!(
         "{}, {threads} threads; {RUSTC}, {} build; commit {commit}{changes}; {date}",
@@ -28,8 +28,27 @@ pub(crate) fn origin() -> String {
     )
 }
 
-/// Whether the working tree of a folder differs from its commit, except for the pages, of which a report writes several.
-pub(crate) fn has_changes(folder: &Path) -> bool {
+/// Why pages that are measured in a folder would not name the commit of what was measured, if so.
+pub(crate) fn refusal(folder: &Path) -> Option<&'static str> {
+    match (commit(folder), has_changes(folder)) {
+        (Some(_), Some(false)) => None,
+        (Some(_), Some(true)) => Some(
+            "the working tree has changes beside docs/benchmarks, and pages name a commit: commit first",
+        ),
+        _ => Some(
+            "pages name a commit, and git tells none: it is absent or fails, or this is no repository",
+        ),
+    }
+}
+
+/// The commit of a folder; `None` if git fails or is absent.
+fn commit(folder: &Path) -> Option<String> {
+    output_of(folder, "git", &["describe", "--always", "--exclude=*"])
+}
+
+/// Whether the working tree of a folder differs from its commit, except for the pages, of which a report writes several; `None` if git
+/// fails or is absent.
+fn has_changes(folder: &Path) -> Option<bool> {
     let arguments = [
         "status",
         "--porcelain",
@@ -38,15 +57,13 @@ pub(crate) fn has_changes(folder: &Path) -> bool {
         ":/",
         ":(top,exclude)docs/benchmarks",
     ];
-    !output_of(folder, "git", &arguments).is_empty()
+    output_of(folder, "git", &arguments).map(|changes| !changes.is_empty())
 }
 
-/// What a program prints in a folder; empty if it fails or is absent.
-fn output_of(folder: &Path, program: &str, arguments: &[&str]) -> String {
-    let output = Command::new(program).args(arguments).current_dir(folder).output().ok();
-    output.map_or_else(String::new, |output| {
-        String::from_utf8_lossy(&output.stdout).trim().to_owned()
-    })
+/// What a program prints in a folder; `None` if it fails or is absent.
+fn output_of(folder: &Path, program: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).current_dir(folder).output().ok()?;
+    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
 
 /// Who made the CPU, in small letters: the limits of trees differ between makers.
@@ -137,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn pages_are_no_changes() {
+    fn pages_are_no_changes_and_name_a_commit() {
         let folder = env::temp_dir().join(format!("spherule-benches-{}", process::id()));
         let pages = folder.join("docs/benchmarks");
         fs::create_dir_all(&pages).expect("a folder");
@@ -148,12 +165,15 @@ mod tests {
             has_changes(&pages)
         };
         let (page, code) = (changes(&pages.join("orders.md")), changes(&folder.join("code.rs")));
+        // Nothing was committed there.
+        let refusal = refusal(&pages).expect("no commit");
         fs::remove_dir_all(&folder).expect("removed");
+        assert!(refusal.contains("git tells none"), "{refusal}");
         if !has_git {
             println!("skipped: no git");
             return;
         }
-        assert_eq!((page, code), (false, true));
+        assert_eq!((page, code), (Some(false), Some(true)));
     }
 
     #[test]

@@ -51,7 +51,7 @@ enum Part {
 /// Measures, prints, and writes the pages if `--write` is given.
 ///
 /// # Errors
-/// If a file cannot be written, or if pages would name a commit at which they were not measured.
+/// If a file cannot be written, or if pages would name no commit, or one at which they were not measured.
 ///
 /// # Panics
 /// If an answer is wrong.
@@ -63,8 +63,8 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
         _ => Effort::Full,
     };
     let writes = write && !test && scene.is_none() && order.is_none() && rays.is_none();
-    if writes && page::has_changes(Path::new(".")) {
-        return Err("--write: the working tree has changes beside docs/benchmarks, and pages name a commit: commit first".into());
+    if writes && let Some(why) = page::refusal(Path::new(".")) {
+        return Err(format!("--write: {why}").into());
     }
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/benchmarks");
     let put = |name: &str, text: &str| -> Result<(), Box<dyn error::Error>> {

@@ -1,10 +1,14 @@
 //! `R` in the viewer: what it shows becomes a file.
 
 use super::output::Output;
-use super::session::Session;
+use super::session::{Session, command, size};
 use super::viewer::{COLUMNS, ROWS};
+use portable_pty::native_pty_system;
+use rustix::process::Signal;
+use spherule_tests::binary::spherule;
 use std::fs;
-use std::path::PathBuf;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
 
 /// An empty folder.
 fn folder(name: &str) -> PathBuf {
@@ -45,7 +49,7 @@ fn record(script: &str, meanwhile: impl FnOnce()) -> Session {
 #[test]
 fn r_records() {
     let folder = folder("cast");
-    let script = format!("cd {} && exec \"$0\" \"$@\"", folder.display());
+    let script = format!("cd '{}' && exec \"$0\" \"$@\"", folder.display());
     let mut session = record(&script, || {});
     session.quit("q");
     let file = folder.join("marbles-1.cast");
@@ -65,9 +69,61 @@ fn r_records() {
 #[test]
 fn where_no_file_can_be_made_nothing_is_recorded() {
     let folder = folder("no-cast");
-    let script = format!("cd {0} && rmdir {0} && exec \"$0\" \"$@\"", folder.display());
+    let script = format!("cd '{0}' && rmdir '{0}' && exec \"$0\" \"$@\"", folder.display());
     let mut session = start(&script);
     session.wait_for_words("no recording here: no such file or directory");
     assert!(!records(&session.output()));
     session.quit("q");
+}
+
+/// The recording that is all there is in `folder`, which is removed; it goes on to its end.
+fn kept(folder: &Path) -> String {
+    let files = fs::read_dir(folder).expect("it is there");
+    let names = files.map(|file| file.expect("a file").file_name().to_string_lossy().into_owned());
+    assert_eq!(names.collect::<Vec<String>>(), ["marbles-1.cast"]);
+    let text = fs::read_to_string(folder.join("marbles-1.cast")).expect("a recording");
+    assert!(text.ends_with("\\u001b[?7h\\u001b[?25h\"]\n"), "{text}");
+    fs::remove_dir_all(folder).expect("it can be removed");
+    text
+}
+
+#[test]
+fn a_signal_that_ends_the_program_ends_a_recording() {
+    for (signal, name) in [(Signal::TERM, "Terminated"), (Signal::HUP, "Hangup")] {
+        let folder = folder(name);
+        let mut session = start(&format!("cd '{}' && exec \"$0\" \"$@\"", folder.display()));
+        session.wait_until("a recording", records);
+        session.type_in("l");
+        session.wait_for_peace();
+        session.signal(signal);
+        session.ends_by(name);
+        let text = kept(&folder);
+        assert!(text.starts_with('{') && text.lines().count() > 2, "{text}");
+    }
+}
+
+/// A window that is closed, and a link that breaks.
+#[test]
+fn a_recording_ends_with_its_terminal() {
+    let folder = folder("gone-cast");
+    let pair = native_pty_system().openpty(size(COLUMNS, ROWS)).expect("a pseudo-terminal");
+    let mut program = command(spherule(), &["marbles", "--no-probe"], &[]);
+    program.cwd(&folder);
+    let mut child = pair.slave.spawn_command(program).expect("the program starts");
+    let mut reader = pair.master.try_clone_reader().expect("output can be read");
+    let mut keys = pair.master.take_writer().expect("input can be written");
+    let (mut sent, mut bytes) = (Vec::<u8>::new(), [0; 4096]);
+    let mut wait_for = |word: &[u8]| {
+        while !sent.windows(word.len()).any(|bytes| bytes == word) {
+            let count = reader.read(&mut bytes).expect("the program writes");
+            sent.extend_from_slice(&bytes[..count]);
+        }
+    };
+    wait_for(b"q quit");
+    keys.write_all(b"R").expect("it listens");
+    wait_for(b"recording:");
+    drop((keys, pair, reader));
+    let status = child.wait().expect("it is our child");
+    assert_eq!(status.signal(), Some("Hangup"), "{status}");
+    kept(&folder);
 }

@@ -202,6 +202,12 @@ impl Terminal {
         screen::set_removal(bytes);
     }
 
+    /// Sets what is called after the terminal is given back, before a signal or a hang-up ends the process. It may be called by two threads
+    /// at once, and keeps the process alive until it returns.
+    pub fn do_last(&self, last: fn()) {
+        signals::do_last(last);
+    }
+
     /// Gives the terminal back and stops the process group, as Ctrl-Z does outside of raw mode, unless no shell could
     /// continue it; returns whether it was stopped. The screen is taken again by the thread that sees SIGCONT.
     ///

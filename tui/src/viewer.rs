@@ -107,7 +107,6 @@ pub fn run(
         notice: None,
         owes_notice: false,
         told: Vec::new(),
-        recording: None,
         failure: None,
         pending_removal: Vec::new(),
         flow: Flow::default(),
@@ -122,6 +121,7 @@ pub fn run(
         panic_key: env::var_os(PANIC_SWITCH).is_some(),
     };
     let mut studio = Studio::new(structures, renderer);
+    viewer.terminal.do_last(recording::keep);
     viewer.heed_abilities();
     viewer.say_no_pixels();
     let result = viewer.show_until_quit(&mut studio);
@@ -191,9 +191,7 @@ impl Viewer {
 
     /// Gives the terminal back, and then tells what there is to tell, also if `result` is an error. Returns the first error.
     fn leave(mut self, result: Result<(), Error>) -> Result<(), Error> {
-        if self.recording.is_some() {
-            self.record();
-        }
+        self.end_recording();
         let (told, failure) = (mem::take(&mut self.told), self.failure.take());
         drop(self);
         let telling = if told.is_empty() {

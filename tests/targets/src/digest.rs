@@ -11,7 +11,7 @@ use questions::Asked;
 use spherule_kernel::{Level, LevelName, Tier};
 
 /// Prints the digests at every level that the CPU has, one line each: level, tier, question, and digest. Returns whether rays hit in every
-/// question.
+/// question, which they do not where a structure cannot be built.
 ///
 /// With `control`, one bit of an answer of `Exact` to each question is changed.
 #[must_use]

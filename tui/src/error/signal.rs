@@ -61,13 +61,18 @@ pub fn watch(
 
 /// Does `work` before the end, in a thread of its own, and waits for it a second at most.
 pub fn at_last(work: impl FnOnce() + Send + 'static) {
+    within(GRACE, work);
+}
+
+/// The same, and waits for it for `limit` at most.
+pub fn within(limit: Duration, work: impl FnOnce() + Send + 'static) {
     let (done, has_ended) = mpsc::channel();
     let working = thread::Builder::new().spawn(move || {
         work();
         let _ = done.send(());
     });
     if working.is_ok() {
-        let _ = has_ended.recv_timeout(GRACE);
+        let _ = has_ended.recv_timeout(limit);
     }
 }
 

@@ -38,6 +38,10 @@ pub fn open(name: impl AsRef<OsStr>, reading: &Reading) -> Result<Opened, ReadEr
     let file = match File::open(name.path()) {
         Ok(file) => file,
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            // The name is there to see.
+            if name.path().is_symlink() {
+                return Err(ReadError::whole(name, "a symbolic link to no file"));
+            }
             return match builtin::shipped_file(name) {
                 Some(scene) => built_in(scene, name, reading),
                 None if is_plain_word(name) => {
@@ -98,6 +102,19 @@ mod tests {
     use super::*;
     use crate::scene::format::Format;
     use std::ffi::OsString;
+    use std::os::unix::fs::symlink;
+
+    #[test]
+    fn a_link_to_no_file_is_told() {
+        let link = std::env::temp_dir().join(format!("spherule-link-{}", std::process::id()));
+        for target in ["spherule-nowhere", "spherule-nowhere/"] {
+            symlink(target, &link).expect("a link");
+            let opened = open(&link, &Reading::default());
+            std::fs::remove_file(&link).expect("it was there");
+            let refusal = opened.expect_err("refused").to_string();
+            assert!(refusal.ends_with(": a symbolic link to no file"), "{refusal}");
+        }
+    }
 
     #[test]
     fn a_built_in_scene_has_nothing_of_a_file() {

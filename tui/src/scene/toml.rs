@@ -117,7 +117,7 @@ const USUAL_FOV: f32 = 40.0;
 /// not a finite `f32`, a negative radius, a vector without a direction, a colour that is none, a
 /// camera that cannot see, no sphere.
 pub fn read(text: &str, source: &str) -> Result<Scene, ReadError> {
-    limits::check(text).map_err(|what| ReadError::whole(source, what))?;
+    limits::check(text).map_err(|(byte, what)| ReadError::in_text(source, text, byte, what))?;
     let table: SceneTable = toml::from_str(text).map_err(|error| {
         let mut message = error.message().lines().map(str::trim).collect::<Vec<_>>().join(", ");
         let span = error.span().unwrap_or(0..0);

@@ -8,7 +8,16 @@ use crossterm::terminal;
 use signal_hook::consts::{SIGCONT, SIGHUP, SIGTSTP};
 use signal_hook::low_level::emulate_default_handler;
 use std::io;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
+
+/// What is done last before the process ends.
+static LAST: OnceLock<fn()> = OnceLock::new();
+
+/// From now on `last` is called before a signal, or a terminal that is gone, ends the process.
+pub(super) fn do_last(last: fn()) {
+    let _ = LAST.set(last);
+}
 
 /// Starts to watch, once a process: handlers cannot be taken away again.
 pub(super) fn watch() -> io::Result<()> {
@@ -29,11 +38,14 @@ pub(super) fn watch() -> io::Result<()> {
     })
 }
 
-/// Restores, then lets the signal do what it does to a process without a handler, so that whoever
+/// Restores and does what is to be done last, then lets the signal do what it does to a process without a handler, so that whoever
 /// waits for us learns of it.
 pub(super) fn die_by(signal: i32) {
     at_last(restore);
     // A terminal that is stopped by Ctrl-S takes no bytes, but modes it does.
     let _ = terminal::disable_raw_mode();
+    if let Some(last) = LAST.get() {
+        last();
+    }
     end_by(signal);
 }

@@ -7,7 +7,7 @@ use super::session::{Picture, Viewer};
 use super::shown::Outcome;
 use super::studio::Studio;
 use super::table::{Means, Subject};
-use super::{help, notice, picking, status};
+use super::{help, notice, picking, recording, status};
 use crate::cells::CellGrid;
 use crate::coloring::legend::Legend;
 use crate::encode::Economy;
@@ -201,10 +201,13 @@ impl Viewer {
 
     /// Takes note of a frame of cells, if there is a recording.
     fn note_recording(&mut self, cells: &CellGrid, now: Instant, economy: Economy) {
-        let Some(recording) = &mut self.recording else { return };
+        let mut current = recording::current();
+        let Some(recording) = &mut *current else { return };
         recording.frame(cells, now, Economy { most_bytes: usize::MAX, ..economy });
-        if recording.is_full() {
-            self.record();
+        let is_full = recording.is_full();
+        drop(current);
+        if is_full {
+            self.end_recording();
         }
     }
 

@@ -3,7 +3,7 @@
 use super::command_line::command_line;
 use super::film::Film;
 use super::printable::in_cells;
-use super::recording::Recording;
+use super::recording::{self, Recording};
 use super::session::Viewer;
 use crate::cells::{CellGrid, Color};
 use crate::error::{Error, cause};
@@ -34,32 +34,43 @@ impl Viewer {
 
     /// Begins a recording, or ends it and writes its file.
     pub(super) fn record(&mut self) {
-        let now = Instant::now();
+        if self.end_recording() {
+            return;
+        }
         let stem = Path::new(&self.asked.scene.name).file_stem().unwrap_or_default();
         let stem = stem.to_string_lossy();
         // Standard input is called `-`, which begins an option.
         let name = if stem.starts_with('-') { "spherule" } else { &*stem };
-        self.notice = Some(match self.recording.take() {
-            None if self.pixels.protocol.is_some() => {
-                "pixels are not recorded: --output cells".to_owned()
-            }
-            None => match Recording::begin(name, now) {
+        let told = if self.pixels.protocol.is_some() {
+            "pixels are not recorded: --output cells".to_owned()
+        } else {
+            match Recording::begin(name, Instant::now()) {
                 Ok(recording) => {
-                    self.recording = Some(recording);
+                    *recording::current() = Some(recording);
+                    self.state.recording = true;
                     "recording: R ends it".to_owned()
                 }
                 Err(error) => format!("no recording here: {}", cause(&error)),
-            },
-            Some(recording) => match recording.write(name, now) {
-                Ok((path, frames)) => format!("{}: {frames} frames", path.display()),
-                Err((path, error)) => {
-                    let failure = format!("{}: {}", path.display(), cause(&error));
-                    self.failure = Some(Error::Running(failure.clone()));
-                    failure
-                }
-            },
+            }
+        };
+        self.notice = Some(told);
+    }
+
+    /// Ends the recording, if there is one, and writes its file; returns whether there was one.
+    pub(super) fn end_recording(&mut self) -> bool {
+        // Held until the file is there: whoever ends the process meanwhile waits for it.
+        let mut current = recording::current();
+        let Some(recording) = current.take() else { return false };
+        self.notice = Some(match recording.write(Instant::now()) {
+            Ok((path, frames)) => format!("{}: {frames} frames", path.display()),
+            Err((path, error)) => {
+                let failure = format!("{}: {}", path.display(), cause(&error));
+                self.failure = Some(Error::Running(failure.clone()));
+                failure
+            }
         });
-        self.state.recording = self.recording.is_some();
+        self.state.recording = false;
+        true
     }
 }
 

@@ -7,7 +7,6 @@ use super::meter::Meter;
 use super::pace::Pace;
 use super::picking::Cursor;
 use super::pixels::Pixels;
-use super::recording::Recording;
 use super::state::State;
 use super::table::Table;
 use super::wanted::Wanted;
@@ -54,7 +53,6 @@ pub(super) struct Viewer {
     pub(super) owes_notice: bool,
     /// Command lines that were asked for: printed when the terminal is given back.
     pub(super) told: Vec<String>,
-    pub(super) recording: Option<Recording>,
     /// Why a recording could not be written.
     pub(super) failure: Option<Error>,
     /// What removes images; it is sent with the next frame.

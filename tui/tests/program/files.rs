@@ -1,7 +1,7 @@
 //! Other people's files, on the command line: frames, notes, pipes.
 
 use crate::run::{
-    file, printed, prints, refusal, refuses, run, run_with_input, spherule, stderr, writes,
+    file, printed, prints, refusal, refuses, run, run_with_input, spherule, split, stderr, writes,
 };
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Write};
@@ -16,7 +16,7 @@ const TWO: &str = "1\none\nC 0 0 0\n2\ntwo\nC 0 0 0\nO 3 0 0\n";
 
 /// Whatever bytes the file's name has.
 fn with(path: impl AsRef<OsStr>, words: &str) -> Output {
-    run([path.as_ref()].into_iter().chain(words.split_whitespace().map(AsRef::as_ref)))
+    spherule().arg(path).args(split(words)).output().expect("the program runs")
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::run::{
     array, failure, file, folder, json, names, npy, printed, prints, refusal, refuses, run,
-    run_with_input,
+    run_with_input, split,
 };
 use serde_json::Value;
 use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};
@@ -250,7 +250,7 @@ fn unit_directions_keep_ends_at_roots() {
 fn cases_that_cannot_be_written_leave_nothing() {
     let folder = folder("judge-half");
     let cases = "cases --count 100000 --out-rays /dev/full --out-spheres";
-    let output = run(format!("{cases} {}/s.npy", folder.display()).split(' '));
+    let output = run(split(&format!("{cases} {}/s.npy", folder.display())));
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(names(&folder), [""; 0]);
 }
@@ -260,12 +260,14 @@ fn what_is_asked_again_is_smaller() {
     let files = Files::new("again", "--count 240 --family far-1e4", "fast");
     let program = env!("CARGO_BIN_EXE_spherule");
     let script = format!(
-        "{program} trace --pairs --accuracy fast --spheres \"$1\" --rays \"$2\" --out-t \"$3\""
+        "'{program}' trace --pairs --accuracy fast --spheres \"$1\" --rays \"$2\" --out-t \"$3\""
     );
     let script = file("judge-again.sh", script);
     let judge = files.judge("--pairs --json");
-    let again = |command: &str| run(judge.split_whitespace().chain(["--again", command]));
-    let report = printed(again(&format!("sh {script}")));
+    let again = |command: &str| {
+        run(split(&judge).into_iter().chain(["--again", command].map(str::to_owned)))
+    };
+    let report = printed(again(&format!("sh '{script}'")));
     let report: Value = serde_json::from_str(&report).expect("JSON");
     let digits = |failure: &Value| {
         failure["ray_hex"].to_string().len() + failure["spheres_hex"].to_string().len()

@@ -8,6 +8,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+/// Where the tests write. It has a blank in its name, as the folder of the repository may have.
+const FOLDER: &str = concat!(env!("CARGO_TARGET_TMPDIR"), "/own files");
+
 /// The program without any variable that decides about colour or characters.
 pub(crate) fn spherule() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_spherule"));
@@ -23,9 +26,15 @@ pub(crate) fn run<S: AsRef<OsStr>>(arguments: impl IntoIterator<Item = S>) -> Ou
     spherule().args(arguments).output().expect("the program runs")
 }
 
+/// A command line as words, which blanks separate, except those in the name of [`FOLDER`].
+pub(crate) fn split(line: &str) -> Vec<String> {
+    let line = line.replace(FOLDER, "\0");
+    line.split_whitespace().map(|word| word.replace('\0', FOLDER)).collect()
+}
+
 /// What it prints by these words.
 pub(crate) fn prints(words: &str) -> String {
-    printed(run(words.split_whitespace()))
+    printed(run(split(words)))
 }
 
 /// The one line of JSON that it prints by these words.
@@ -37,12 +46,12 @@ pub(crate) fn json(words: &str) -> Value {
 
 /// The bytes that it writes to standard output by these words.
 pub(crate) fn writes(words: &str) -> Vec<u8> {
-    written(run(words.split_whitespace()))
+    written(run(split(words)))
 }
 
 /// The line by which it refuses these words.
 pub(crate) fn refuses(words: &str) -> String {
-    refusal(&run(words.split_whitespace()))
+    refusal(&run(split(words)))
 }
 
 /// Runs it by a script of a shell, as `$0`; arguments can be added.
@@ -55,7 +64,7 @@ pub(crate) fn by_script(script: &str) -> Command {
 /// Runs it with these words, and `input` on standard input.
 pub(crate) fn run_with_input(words: &str, input: &[u8]) -> Output {
     let mut child = spherule()
-        .args(words.split_whitespace())
+        .args(split(words))
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -69,7 +78,7 @@ pub(crate) fn run_with_input(words: &str, input: &[u8]) -> Output {
 /// Runs it with these words while no one reads what it prints.
 pub(crate) fn without_reader(words: &str) -> Output {
     let mut command = spherule();
-    command.args(words.split_whitespace()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.args(split(words)).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().expect("the program runs");
     drop(child.stdout.take());
     child.wait_with_output().expect("the program ends")
@@ -135,16 +144,17 @@ pub(crate) fn is_of_size(picture: &str, size: &str) -> bool {
 
 /// A file that is this test's own.
 pub(crate) fn file(name: &str, bytes: impl AsRef<[u8]>) -> String {
-    let path = format!("{}/{name}", env!("CARGO_TARGET_TMPDIR"));
+    fs::create_dir_all(FOLDER).expect("a writable folder");
+    let path = format!("{FOLDER}/{name}");
     fs::write(&path, bytes).expect("a writable folder");
     path
 }
 
 /// An empty folder that is this test's own.
 pub(crate) fn folder(name: &str) -> PathBuf {
-    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let path = Path::new(FOLDER).join(name);
     let _ = fs::remove_dir_all(&path);
-    fs::create_dir(&path).expect("a writable folder");
+    fs::create_dir_all(&path).expect("a writable folder");
     path
 }
 

@@ -1,6 +1,6 @@
 //! `spherule trace` against a scalar loop, and its refusals.
 
-use crate::run::{array, failure, file, npy, prints, refuses, run};
+use crate::run::{array, failure, file, npy, prints, refuses, run, split};
 use crate::scenes::inward;
 use crate::traced::{inputs, traced};
 use spherule_kernel::{Intersect, Ray, SphereList, Tier, Vec3};
@@ -173,7 +173,7 @@ fn an_output_that_cannot_be_written_is_a_failure() {
     let inputs = inputs("unwritable", &spheres, &rays);
     for target in ["/dev/full", "no/such/folder/t.npy"] {
         let words = format!("trace --out-t {target} {inputs}");
-        let message = failure(&run(words.split(' ')));
+        let message = failure(&run(split(&words)));
         assert!(message.starts_with(&format!("{target}: ")), "{message}");
     }
 }
@@ -186,7 +186,7 @@ fn an_output_is_no_half_of_two_and_not_standard_output() {
     let t = file("halves.t.npy", "before");
     let words =
         |out_t: &str, out_id: &str| format!("trace --out-t {out_t} --out-id {out_id} {inputs}");
-    let failed = run(words(&t, "no/such/i.npy").split(' '));
+    let failed = run(split(&words(&t, "no/such/i.npy")));
     assert_eq!(failed.status.code(), Some(1));
     let message = "-: standard output has the report; name a file";
     assert_eq!(refuses(&words("-", "no/such/i.npy")), format!("--out-t {message}"));

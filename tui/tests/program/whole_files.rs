@@ -1,7 +1,7 @@
 //! Files that are written whole or not at all: several at once, and one in place of another.
 
 use crate::run::{
-    folder, is_heard, names, prints, refusal, refuses, run, spherule, stderr, writes,
+    folder, is_heard, names, prints, refusal, refuses, run, spherule, split, stderr, writes,
 };
 use rustix::process::{
     Gid, Pid, Resource, Rlimit, Signal, getgroups, getrlimit, kill_process, setrlimit,
@@ -104,7 +104,7 @@ fn the_name_of_a_folder_is_no_file() {
     let text = "1\n\nH 0 0 0\n";
     fs::write(folder.join("other.xyz"), text).expect("a writable folder");
     for name in ["pictures/", "pictures/.", "other.xyz/"] {
-        let output = run(format!("unit --png {}/{name}", folder.display()).split(' '));
+        let output = run(split(&format!("unit --png {}/{name}", folder.display())));
         let message = stderr(&output);
         assert!(!output.status.success() && message.contains("not a directory"), "{message}");
         assert_eq!(names(&folder), ["other.xyz"], "{name}");
@@ -139,7 +139,7 @@ fn two_outputs_are_not_one() {
     // Nor is standard output by its name, or by the name of its file, another one.
     let into_taken = |words: &str| {
         let mut command = spherule();
-        command.args(words.split(' ')).stdout(File::create(&taken).expect("a writable folder"));
+        command.args(split(words)).stdout(File::create(&taken).expect("a writable folder"));
         refusal(&command.output().expect("the program runs"))
     };
     for output in ["/dev/stdout", &*taken] {

@@ -77,7 +77,8 @@ impl Asked {
         fnv
     }
 
-    /// Asks list, depth list and both trees of an ordinary scene; `Exact` also with spheres one inside another.
+    /// Asks list, depth list and both trees of an ordinary scene; `Exact` also with spheres one inside another. If one of them cannot be
+    /// built, nothing is hit.
     pub(super) fn structures(&self) -> Fnv {
         let (mut fnv, mut random) = (Fnv::new(self.control), Random(7));
         let mut columns = [[0.0; BUILT]; 4];
@@ -94,26 +95,28 @@ impl Asked {
         }
 
         let [x, y, z, r] = &columns;
-        let Ok(spheres) = Spheres::new(x, y, z, r) else { return fnv };
+        // On every target alike, it would not be seen in the digests that one is missing.
+        let nothing = Fnv::new(self.control);
+        let Ok(spheres) = Spheres::new(x, y, z, r) else { return nothing };
         let mut words = [0.0; DepthList::needed(BUILT)];
         let mut scratch = [0.0; DepthList::scratch(BUILT)];
         let mut nodes = [BvhNode::EMPTY; NEEDED.nodes];
         let (mut places, mut indices) = ([[0.0; 4]; NEEDED.places], [0; NEEDED.places]);
         self.ask(&mut fnv, &spheres, &rays, &mut []);
-        if let Ok(sorted) = DepthList::sort(spheres, Viewpoint::Origin(eye), &mut words) {
-            self.ask(&mut fnv, &sorted, &rays, &mut scratch);
-        }
-        if let Ok(tree) = Bvh::build(spheres, &mut nodes, &mut places, &mut indices) {
-            self.ask(&mut fnv, &tree, &rays, &mut []);
-            self.tiles(&mut fnv, &tree, &spheres, eye);
-        }
+        let Ok(sorted) = DepthList::sort(spheres, Viewpoint::Origin(eye), &mut words) else {
+            return nothing;
+        };
+        self.ask(&mut fnv, &sorted, &rays, &mut scratch);
+        let Ok(tree) = Bvh::build(spheres, &mut nodes, &mut places, &mut indices) else {
+            return nothing;
+        };
+        self.ask(&mut fnv, &tree, &rays, &mut []);
+        self.tiles(&mut fnv, &tree, &spheres, eye);
         let mut words = [0; Bvh4::needed(BUILT)];
-        if let Ok(built) = Bvh4::build(spheres, &mut words)
-            && let Ok(tree) = Bvh4::load(spheres, built.words())
-        {
-            tree.words().iter().for_each(|&word| fnv.word(word));
-            self.ask(&mut fnv, &tree, &rays, &mut []);
-        }
+        let Ok(built) = Bvh4::build(spheres, &mut words) else { return nothing };
+        let Ok(tree) = Bvh4::load(spheres, built.words()) else { return nothing };
+        tree.words().iter().for_each(|&word| fnv.word(word));
+        self.ask(&mut fnv, &tree, &rays, &mut []);
         fnv
     }
 

@@ -40,9 +40,11 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
     decoded(&bytes, &mut frame).map_err(|what| wrong(format!("a damaged frame: {what}")))?;
     let centers = frame.coords().map(|point| Vec3::from_array(point) * ANGSTROM);
     let centers: Vec<Vec3> = centers.collect();
-    if centers.is_empty() || !centers.iter().all(|center| center.is_finite()) {
-        let what = "a frame without atoms, or with one that is not at a finite point";
-        return Err(wrong(what.to_owned()));
+    if centers.is_empty() {
+        return Err(wrong("a frame without atoms".to_owned()).of_empty_frame());
+    }
+    if !centers.iter().all(|center| center.is_finite()) {
+        return Err(wrong("an atom that is not at a finite point".to_owned()));
     }
     let Some(topology) = &context.topology else {
         context.notes.note("positions alone: --topology FILE says what the particles are");

@@ -141,8 +141,20 @@ fn every_mistake_has_a_line_and_a_column() {
 
 #[test]
 fn a_scene_has_limits() {
-    let what = "s.toml: a scene of more than 33554432 lines, values and brackets";
+    let what = "s.toml:33554433:1: a scene of more than 33554432 lines, values and brackets";
     assert_eq!(read(&"\n".repeat(64 << 20), "s.toml").expect_err("limits").to_string(), what);
+    let what = "s.toml:21846:4: a scene of more than 65536 dots in keys";
+    assert_eq!(
+        read(&"a.b.c.d=1\n".repeat(30_000), "s.toml").expect_err("limits").to_string(),
+        what
+    );
+}
+
+#[test]
+fn a_camera_may_have_dotted_keys() {
+    let text = format!("camera.eye = [0, 0.5, 5]\ncamera.target = [0, 0, 0]\n{SPHERE}");
+    let scene = read(&text, "").expect("a scene");
+    assert_eq!(scene.view.map(|view| view.eye), Some(Vec3::new(0.0, 0.5, 5.0)));
 }
 
 #[test]
