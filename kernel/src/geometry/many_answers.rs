@@ -6,7 +6,6 @@ use super::hit::{Hit, HitPacket};
 use super::ray::RayPacket;
 
 /// Where the answers of many rays go.
-#[allow(unreachable_pub, reason = "a bound of a public type names it")]
 pub trait ManyAnswers {
     /// What a packet of sixteen rays is answered with.
     type Packet;

@@ -197,4 +197,22 @@ mod tests {
             assert!(traced(FEWEST) == whole, "{tier:?}");
         }
     }
+
+    #[test]
+    fn tiles_for_which_there_are_no_hits_are_left_alone() {
+        let list = SphereList::from([[0.0, 0.0, 0.0, 1.0]]);
+        let (size, search) = ((16, 16), Search::Brute(list.spheres()));
+        let camera = View::FRONT.camera(size.0, size.1, 1.0);
+        let corners: Vec<_> = Camera::tile_corners::<[f32; 16]>(size.0, size.1).collect();
+        let tiles = CameraTiles { camera, size, corners: &corners };
+        let (level, coherence) = (Level::best(), Coherence::Coherent);
+        let tracing = Tracing { tier: Tier::Exact, level, coherence };
+        let mut rays = vec![RayPacket::inactive(); corners.len() + 3];
+        let mut hits = vec![HitPacket::none(); corners.len() - 1];
+        let scratch = (&mut Scratch::default(), &Threads::default());
+        search.tile_hits(tracing, scratch, tiles, &mut rays, &mut hits);
+        assert!(hits.iter().flat_map(HitPacket::hits).flatten().count() > 20);
+        let last = rays.get(hits.len()).expect("one without hits");
+        assert_eq!(*last, RayPacket::inactive());
+    }
 }

@@ -61,6 +61,11 @@ impl Viewer {
         // Held until the file is there: whoever ends the process meanwhile waits for it.
         let mut current = recording::current();
         let Some(recording) = current.take() else { return false };
+        self.state.recording = false;
+        if !recording.has_frames() {
+            self.notice = Some("nothing was recorded".to_owned());
+            return true;
+        }
         self.notice = Some(match recording.write(Instant::now()) {
             Ok((path, frames)) => format!("{}: {frames} frames", path.display()),
             Err((path, error)) => {
@@ -69,7 +74,6 @@ impl Viewer {
                 failure
             }
         });
-        self.state.recording = false;
         true
     }
 }

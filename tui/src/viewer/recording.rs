@@ -60,6 +60,11 @@ impl Recording {
         self.text.len() >= MOST_BYTES
     }
 
+    /// Whether anything was shown: without a frame there is nothing to play.
+    pub(super) fn has_frames(&self) -> bool {
+        self.frames > 0
+    }
+
     /// Ends, and writes a file that is called by its name and a number, in this folder; returns what it is called, and how many
     /// frames are in it.
     ///
@@ -126,7 +131,7 @@ fn unfinished() -> MutexGuard<'static, Option<PathBuf>> {
 pub(super) fn keep() {
     within(PATIENCE, || {
         let mut current = current();
-        if let Some(recording) = current.take() {
+        if let Some(recording) = current.take().filter(Recording::has_frames) {
             // No one is there to be told.
             let _ = recording.write(Instant::now());
         }
@@ -134,5 +139,27 @@ pub(super) fn keep() {
     // If it has its own name by now, there is no such file.
     if let Some(path) = unfinished().take() {
         let _ = fs::remove_file(path);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_recording_without_a_frame_leaves_no_file() {
+        let name = format!("spherule-kept-{}", std::process::id());
+        let file = format!("{name}-1.cast");
+        for frames in [0, 1] {
+            let mut recording = Recording::begin(&name, Instant::now()).expect("a folder");
+            for _ in 0..frames {
+                recording.frame(&CellGrid::new(2, 1), Instant::now(), Economy::NONE);
+            }
+            *current() = Some(recording);
+            keep();
+            let text = fs::read_to_string(&file).ok();
+            assert_eq!(text.as_ref().map_or(0, |text| text.lines().count()), 3 * frames);
+            let _ = fs::remove_file(&file);
+        }
     }
 }

@@ -115,6 +115,9 @@ mod tests {
         ] {
             assert_eq!(count(&format!("{head}{}", part.repeat(1000))), (counts, None), "{part}");
         }
+        // `toml` makes arrays 80 deep; the one that is too deep is counted, too.
+        let deep = format!("a={}", "[".repeat(100));
+        assert_eq!(count(&deep).0, [1, 0, 0, 81]);
     }
 
     #[test]
