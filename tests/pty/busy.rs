@@ -4,13 +4,16 @@ use super::file::TestFile;
 use super::look::{Look, inverse, look};
 use super::output::Output;
 use super::viewer::{COLUMNS, PICTURE_ROWS, Viewer};
+use std::sync::OnceLock;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 /// Spheres along each edge of a cube: so many tests of a ray against a sphere that a picture takes three seconds at least.
 const SIDE: u16 = 64;
-/// The same of a table: its pictures take a second, and so longer than those of a movement are waited for.
+/// The same of a table, where its pictures take a second.
 const SIDE_OF_TABLE: u16 = 27;
+/// From the first word about a picture to its end a test must have seen that word and typed.
+const SLOW_ENOUGH: Duration = Duration::from_millis(1200);
 const SLOW: [&str; 6] = ["--structure", "brute", "--samples", "64", "--threads", "1"];
 /// The longest time from a key to its answer on a loaded machine.
 const AT_ONCE: Duration = Duration::from_secs(1);
@@ -36,11 +39,30 @@ fn cube() -> TestFile {
     TestFile::new("npy", bytes.collect::<Vec<u8>>())
 }
 
+/// A table of so many spheres along each edge that has a column `q`.
+fn table(side: u16) -> TestFile {
+    let lines = lattice(side).map(|[x, y, z]| format!("{x},{y},{z},0.3,{x}\n"));
+    TestFile::new("csv", format!("x,y,z,r,q\n{}", lines.collect::<String>()))
+}
+
+/// The least [`table`] from [`SIDE_OF_TABLE`] on whose first picture is [`SLOW_ENOUGH`] on this machine.
+fn slow_table() -> TestFile {
+    static SIDE: OnceLock<u16> = OnceLock::new();
+    let is_slow = |&side: &u16| {
+        let began = Instant::now();
+        let viewer = Viewer::start_with_file(table(side), &SLOW);
+        viewer.wait_for_frame();
+        let time = began.elapsed();
+        viewer.quit();
+        time >= SLOW_ENOUGH
+    };
+    let sides = || (SIDE_OF_TABLE..).step_by(6).find(is_slow).expect("a table that takes long");
+    table(*SIDE.get_or_init(sides))
+}
+
 /// The viewer on a table that has a column `q`.
 fn on_table(more: &[&str]) -> Viewer {
-    let lines = lattice(SIDE_OF_TABLE).map(|[x, y, z]| format!("{x},{y},{z},0.3,{x}\n"));
-    let file = TestFile::new("csv", format!("x,y,z,r,q\n{}", lines.collect::<String>()));
-    Viewer::start_with_file(file, &[SLOW.as_slice(), more].concat())
+    Viewer::start_with_file(slow_table(), &[SLOW.as_slice(), more].concat())
 }
 
 /// Types a key again and again until something is seen.
@@ -54,7 +76,7 @@ fn hold(viewer: &mut Viewer, key: &str, is_seen: impl Fn(&Output) -> bool) {
 }
 
 fn says_that_it_draws(output: &Output) -> bool {
-    output.screen().alternate_screen() && output.status().contains("drawing ...")
+    output.is_whole() && output.status().contains("drawing ...")
 }
 
 /// Help opens, another structure takes over, and `q` quits.

@@ -52,12 +52,15 @@ impl Output {
         String::from_utf8_lossy(&self.sent[count..]).into_owned()
     }
 
-    /// Whether the screen shows a whole frame: all its bytes, including the status line, which does not say that the next
-    /// picture is being drawn.
-    pub(crate) fn shows_a_frame(&self) -> bool {
+    /// Whether the screen shows all of what was sent last, including the status line.
+    pub(crate) fn is_whole(&self) -> bool {
         self.screen().alternate_screen()
             && (self.sent.ends_with(b"\x1b[?2026l") || self.sent.ends_with(b"\x1b[?2026l\x1b[5n"))
             && !self.status().trim().is_empty()
-            && !self.status().contains("drawing ...")
+    }
+
+    /// Whether the screen shows a whole frame, whose status line does not say that the next picture is being drawn.
+    pub(crate) fn shows_a_frame(&self) -> bool {
+        self.is_whole() && !self.status().contains("drawing ...")
     }
 }
