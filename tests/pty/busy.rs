@@ -13,7 +13,7 @@ const SIDE: u16 = 64;
 /// The same of a table, where its pictures take a second.
 const SIDE_OF_TABLE: u16 = 27;
 /// From the first word about a picture to its end a test must have seen that word and typed.
-const SLOW_ENOUGH: Duration = Duration::from_millis(1200);
+const SLOW_ENOUGH: Duration = Duration::from_secs(1);
 const SLOW: [&str; 6] = ["--structure", "brute", "--samples", "64", "--threads", "1"];
 /// The longest time from a key to its answer on a loaded machine.
 const AT_ONCE: Duration = Duration::from_secs(1);
@@ -45,8 +45,8 @@ fn table(side: u16) -> TestFile {
     TestFile::new("csv", format!("x,y,z,r,q\n{}", lines.collect::<String>()))
 }
 
-/// The least [`table`] from [`SIDE_OF_TABLE`] on whose first picture is [`SLOW_ENOUGH`] on this machine.
-fn slow_table() -> TestFile {
+/// The viewer on the least [`table`] from [`SIDE_OF_TABLE`] on whose first picture is [`SLOW_ENOUGH`] on this machine.
+fn on_slow_table(more: &[&str]) -> Viewer {
     static SIDE: OnceLock<u16> = OnceLock::new();
     let is_slow = |&side: &u16| {
         let began = Instant::now();
@@ -56,13 +56,9 @@ fn slow_table() -> TestFile {
         viewer.quit();
         time >= SLOW_ENOUGH
     };
-    let sides = || (SIDE_OF_TABLE..).step_by(6).find(is_slow).expect("a table that takes long");
-    table(*SIDE.get_or_init(sides))
-}
-
-/// The viewer on a table that has a column `q`.
-fn on_table(more: &[&str]) -> Viewer {
-    Viewer::start_with_file(slow_table(), &[SLOW.as_slice(), more].concat())
+    let first = || (SIDE_OF_TABLE..).step_by(3).find(is_slow).expect("a table that takes long");
+    let file = table(*SIDE.get_or_init(first));
+    Viewer::start_with_file(file, &[SLOW.as_slice(), more].concat())
 }
 
 /// Types a key again and again until something is seen.
@@ -108,7 +104,7 @@ fn keys_are_answered_while_a_picture_is_drawn() {
 /// From the start on, when it is not known yet how long a picture takes, and later.
 #[test]
 fn a_key_that_is_held_down_leaves_pictures_to_be_seen() {
-    let mut viewer = on_table(&[]);
+    let mut viewer = Viewer::start_with_file(table(SIDE_OF_TABLE), &SLOW);
     let mut before = Vec::<Vec<Look>>::new();
     for key in ["l", "l", "l", "f"] {
         let picture = |output: &Output| look(output.screen(), PICTURE_ROWS);
@@ -121,7 +117,7 @@ fn a_key_that_is_held_down_leaves_pictures_to_be_seen() {
 /// So does Enter, which needs what draws.
 #[test]
 fn enter_that_is_held_down_leaves_a_picture_to_be_seen() {
-    let mut viewer = on_table(&[]);
+    let mut viewer = Viewer::start_with_file(table(SIDE_OF_TABLE), &SLOW);
     let picked = |viewer: &Viewer, before: &[(u16, u16)]| {
         viewer.session.wait_for("another cell that is picked", |output| {
             let cells = inverse(output.screen());
@@ -147,7 +143,7 @@ fn enter_that_is_held_down_leaves_a_picture_to_be_seen() {
 #[test]
 fn a_cell_is_picked_in_the_picture_that_is_seen() {
     let view = ["--eye", "13,13,80", "--target", "13,13,13"];
-    let mut viewer = on_table(&view);
+    let mut viewer = on_slow_table(&view);
     viewer.session.wait_until("a word about it", says_that_it_draws);
     // The first picture is drawn to its end. The next one is so far to the side that it is empty.
     viewer.session.type_in(&format!("p{}", "H".repeat(60)));
@@ -162,7 +158,7 @@ fn a_cell_is_picked_in_the_picture_that_is_seen() {
 /// The last picture stays while the next is drawn, without a legend as before.
 #[test]
 fn a_legend_comes_with_its_picture() {
-    let mut viewer = on_table(&["--legend"]);
+    let mut viewer = on_slow_table(&["--legend"]);
     let has_legend = |output: &Output| {
         output.screen().contents_between(0, 0, 0, COLUMNS).trim_end().ends_with(" q")
     };

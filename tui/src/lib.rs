@@ -38,6 +38,8 @@ pub mod structure;
 pub mod style;
 pub mod tally;
 pub mod terminal;
+#[cfg(test)]
+mod test_file;
 pub mod threads;
 pub mod trace;
 pub mod tradeoff;

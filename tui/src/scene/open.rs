@@ -101,12 +101,13 @@ fn is_plain_word(name: &str) -> bool {
 mod tests {
     use super::*;
     use crate::scene::format::Format;
+    use crate::test_file::path;
     use std::ffi::OsString;
     use std::os::unix::fs::symlink;
 
     #[test]
     fn a_link_to_no_file_is_told() {
-        let link = std::env::temp_dir().join(format!("spherule-link-{}", std::process::id()));
+        let link = path("link");
         for target in ["spherule-nowhere", "spherule-nowhere/"] {
             symlink(target, &link).expect("a link");
             let opened = open(&link, &Reading::default());

@@ -89,6 +89,7 @@ mod tests {
     use crate::scene::format::Format;
     use crate::scene::open::{Opened, open};
     use crate::scene::reading::Reading;
+    use crate::test_file::written;
     use std::io::{ErrorKind, Write};
     use std::os::fd::AsRawFd;
     use std::time::Duration;
@@ -107,9 +108,7 @@ mod tests {
 
     /// A file of this text.
     fn opened(name: &str, text: &str, follow: bool) -> Frames {
-        let file = format!("spherule-drawn-{}-{name}", std::process::id());
-        let path = std::env::temp_dir().join(file);
-        std::fs::write(&path, text).expect("a file");
+        let path = written(name, text);
         open_by(path.to_str().expect("UTF-8"), &Reading { follow, ..Reading::default() })
     }
 

@@ -23,9 +23,10 @@ use crate::scene::input::Input;
 use crate::scene::open::{Opened, open};
 use crate::scene::reading::{Reading, frames, read};
 use crate::scene::{ReadError, Scene};
+use crate::test_file::written;
 use std::fs::OpenOptions;
 use std::io::{Cursor, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// The scene in `bytes`, told by them alone.
@@ -78,17 +79,8 @@ fn numbers(scene: &Scene, name: &str) -> Option<Vec<f32>> {
     scene.attributes().column(name).map(|column| column.values.clone())
 }
 
-/// A file of this test's own.
-fn file(name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("spherule-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder");
-    let path = folder.join(name);
-    std::fs::write(&path, bytes).expect("a file");
-    path
-}
-
 fn frames_of(name: &str, bytes: impl AsRef<[u8]>, reading: &Reading) -> Frames {
-    let path = file(name, bytes);
+    let path = written(name, bytes);
     match open(path.to_str().expect("UTF-8"), reading).unwrap_or_else(|error| panic!("{error}")) {
         Opened::File(frames) => frames,
         Opened::Builtin(_) => panic!("a built-in scene"),

@@ -4,19 +4,15 @@ use super::ahead::{AHEAD, State};
 use super::*;
 use crate::scene::open::{Opened, open};
 use crate::scene::reading::Reading;
+use crate::test_file::{self, path};
 use std::fs::OpenOptions;
 use std::io::Write;
 use std::os::fd::AsRawFd;
-use std::path::PathBuf;
-
-fn path(name: &str) -> PathBuf {
-    std::env::temp_dir().join(format!("spherule-{}-{name}", std::process::id()))
-}
 
 /// The name of a file of this text.
 fn written(name: &str, text: impl AsRef<[u8]>) -> String {
-    std::fs::write(path(name), text).expect("a file");
-    path(name).into_os_string().into_string().expect("UTF-8")
+    let path = test_file::written(name, text);
+    path.into_os_string().into_string().expect("UTF-8")
 }
 
 fn text(count: usize) -> String {

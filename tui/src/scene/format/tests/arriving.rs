@@ -77,7 +77,7 @@ fn a_compressed_file_that_grows() {
         let film = &mut followed(name, &whole[..lengths[0]]);
         let lengths = [lengths.as_slice(), &[whole.len()]].concat();
         for (length, there) in lengths.into_iter().zip([0, 1, 1, 1, 2, 2]) {
-            file(name, &whole[..length]);
+            written(name, &whole[..length]);
             for index in 0..3 {
                 let is_there = frame(film, index).is_some();
                 assert_eq!(is_there, index < there, "{name}: {index} after {length}");
@@ -106,9 +106,9 @@ fn atoms(count: usize) -> String {
 /// Who copies a file over another cuts it, and it grows again; others put a new one in its place.
 #[test]
 fn a_file_that_is_written_anew_goes_on_where_it_was() {
-    let copy = |count: usize| file("anew.xyz", atoms(count));
+    let copy = |count: usize| written("anew.xyz", atoms(count));
     let path = copy(3);
-    let replace = |text: String| rename(file("anew.new", text), &path).expect("the file");
+    let replace = |text: String| rename(written("anew.new", text), &path).expect("the file");
     let frames = &mut followed("anew.xyz", atoms(3));
     let mut x = |index| centers_in(frames, index).map(|centers| centers[0][0]);
     // All three are in the buffer then.
@@ -138,7 +138,7 @@ fn a_file_that_is_written_anew_goes_on_where_it_was() {
 fn a_file_that_was_empty_may_be_compressed() {
     let frames = &mut followed("empty.xyz.gz", "");
     assert!(frame(frames, 0).is_none());
-    file("empty.xyz.gz", gz(atoms(50).as_bytes()));
+    written("empty.xyz.gz", gz(atoms(50).as_bytes()));
     for index in 0..=50 {
         assert_eq!(frame(frames, index).is_some(), index < 50, "{index}");
     }

@@ -100,7 +100,7 @@ fn a_frame_that_is_none_has_its_line() {
 fn a_file_that_grows() {
     let (two, three) = (xyz(2), xyz(3));
     let frames = &mut followed("grows.xyz", &two);
-    let path = file("grows.xyz", &two);
+    let path = written("grows.xyz", &two);
     assert_eq!((first_x(frames, 0), first_x(frames, 1)), (Some(0.0), Some(1.0)));
     let more = &three.as_bytes()[two.len()..];
     for (index, byte) in more.iter().enumerate() {
@@ -144,7 +144,7 @@ fn a_model_that_grows_is_a_frame_once_it_is_whole() {
         ),
     ] {
         let frames = &mut followed(name, head);
-        let path = file(name, head);
+        let path = written(name, head);
         let mut seen = Vec::new();
         for byte in rest.bytes() {
             append(&path, &[byte]);
@@ -236,7 +236,7 @@ fn a_title_of_gro_may_be_blank() {
 /// While a blank title is all that has been written of a frame, it is not taken for the end.
 #[test]
 fn a_gro_file_that_grows() {
-    let path = file("grows.gro", gro("", 0));
+    let path = written("grows.gro", gro("", 0));
     let frames = &mut followed("grows.gro", gro("", 0));
     assert_eq!(gro_x(frames, 0), Some(0.0));
     for (index, byte) in gro("", 1).bytes().enumerate() {

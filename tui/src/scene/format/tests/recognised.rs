@@ -1,7 +1,7 @@
 use super::*;
 
 fn refused(name: &str, bytes: impl AsRef<[u8]>, reading: &Reading) -> String {
-    let path = file(name, bytes);
+    let path = written(name, bytes);
     open(path.to_str().expect("UTF-8"), reading).expect_err("no format").to_string()
 }
 
@@ -51,7 +51,7 @@ fn a_file_that_is_still_empty_becomes_what_its_name_says() {
         for _ in 0..2 {
             assert!(frame(frames, 0).is_none(), "{name}");
         }
-        file(name, text);
+        written(name, text);
         assert_eq!(frame(frames, 0).map(|scene| scene.spheres().len()), Some(spheres), "{name}");
         let message = refused(name, b"", &Reading::default());
         assert!(message.ends_with(": the file is empty"), "{message}");
