@@ -423,6 +423,25 @@ pub trait Intersect: Lend {
 
     /// [`closest_hit_tiles`](Intersect::closest_hit_tiles) in the caller's lanes, with their token. Tiles are as large as
     /// [`Camera::tile`](crate::Camera::tile) says for these lanes. The level of `trace` is ignored.
+    ///
+    /// ```
+    /// use spherule_kernel::{
+    ///     Camera, CameraTiles, Exact, HitPacket, Intersect, Projection, RayPacket, SphereList, Trace, Vec3, f32x8,
+    /// };
+    ///
+    /// let spheres = SphereList::from([[0.0, 0.0, -5.0, 1.0]]);
+    /// // Rays along -z, a tenth apart, around the sphere's centre.
+    /// let camera = Camera {
+    ///     projection: Projection::Parallel { direction: -Vec3::Z },
+    ///     corner: Vec3::new(-0.15, 0.05, 0.0),
+    ///     step_x: Vec3::new(0.1, 0.0, 0.0),
+    ///     step_y: Vec3::new(0.0, -0.1, 0.0),
+    /// };
+    /// let tiles = CameraTiles { camera, size: (4, 2), corners: &[(0, 0)] };
+    /// let (mut rays, mut hits) = ([RayPacket::<[f32; 8]>::inactive()], [HitPacket::<[f32; 8]>::none()]);
+    /// spheres.closest_hit_tile_lanes::<f32x8>(Exact, (), &mut Trace::new(), tiles, &mut rays, &mut hits);
+    /// assert_eq!(hits[0].hits().flatten().count(), 8);
+    /// ```
     #[inline(always)]
     fn closest_hit_tile_lanes<L: Lanes>(
         &self,

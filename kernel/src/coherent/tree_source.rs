@@ -60,7 +60,7 @@ impl Ways<'_> {
             let sharing = &self.learnt.sharing[kind_of::<Q>()];
             return self.kept.lend::<Q>(bvh, sharing, rays);
         }
-        let _ = (bvh, rays);
+        let _ = (bvh, rays, Q::ANY);
         self.lent.as_mut().map(StreamMemory::again)
     }
 }
