@@ -83,7 +83,7 @@ pub trait Traverse {
         &self,
         tier: impl Accuracy,
         trace: &mut Trace<'_>,
-        rays: ManyRays<'_>,
+        rays: &ManyRays<'_>,
         packets: &mut [RayPacket],
         answers: &mut [Q::Packet<[f32; 16]>],
     ) {

@@ -18,7 +18,7 @@ pub enum PacketSource<'a, A: LaneArray> {
     Packets(&'a [RayPacket<A>]),
     /// Packets that are filled with rays, a group at a time, in memory whose contents do not matter.
     #[cfg_attr(not(feature = "std"), expect(dead_code, reason = "levels alone make them there"))]
-    Rays(ManyRays<'a>, &'a mut [RayPacket<A>]),
+    Rays(&'a ManyRays<'a>, &'a mut [RayPacket<A>]),
     /// Packets that are made, a group at a time, in memory whose contents do not matter.
     Tiles(CameraTiles<'a>, &'a mut [RayPacket<A>]),
 }

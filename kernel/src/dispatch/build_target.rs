@@ -12,6 +12,6 @@ pub(crate) type BuildLanes = f32;
 
 /// Fills packets with rays.
 #[inline(never)]
-pub(crate) fn fill(rays: ManyRays<'_>, packets: &mut [RayPacket]) {
+pub(crate) fn fill(rays: &ManyRays<'_>, packets: &mut [RayPacket]) {
     rays.fill::<wide::f32x16>((), 0, packets);
 }

@@ -232,7 +232,7 @@ pub(crate) fn leaves_held(level: Level, bvh: &Bvh<'_>, asked: &Asked) -> f32 {
 
 /// Fills packets with rays.
 #[inline(never)]
-pub(crate) fn fill(level: Level, rays: ManyRays<'_>, packets: &mut [RayPacket]) {
+pub(crate) fn fill(level: Level, rays: &ManyRays<'_>, packets: &mut [RayPacket]) {
     at_level!(level.0, simd, Vector => rays.fill::<Vector>(simd, 0, packets));
 }
 

@@ -45,7 +45,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,
     tier: impl Accuracy,
     trace: &mut Trace<'_>,
-    (gain, rays, mut from, count): (GainByOrder, ManyRays<'_>, usize, usize),
+    (gain, rays, mut from, count): (GainByOrder, &ManyRays<'_>, usize, usize),
     packets: &mut [RayPacket],
     (answered, answers): (&mut [Q::Packet<[f32; 16]>], &mut Q::Many<'_>),
 ) -> usize {
@@ -90,7 +90,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
             at += numbers.len();
             part.gather(numbers.iter().map(|place| number_of(*place)), gathered);
             let these = ManyRays::Slice(gathered.get(..numbers.len()).unwrap_or_default());
-            structure.many_in_packets::<Q>(tier, trace, these, packets, answered);
+            structure.many_in_packets::<Q>(tier, trace, &these, packets, answered);
             answers.scatter(answered, numbers.iter().map(|place| from + number_of(*place)));
         }
         from = to;
@@ -126,7 +126,8 @@ fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
         let rays = group.get(..count).unwrap_or(group);
         // Each group is a call of its own, since after one in vain others would be passed over.
         let mut trial = Trace { learnt: Learnt::ON_TRIAL, ..Trace::new().at(level) };
-        structure.many_in_packets::<Q>(tier, &mut trial, ManyRays::Slice(rays), packets, answered);
+        let rays = ManyRays::Slice(rays);
+        structure.many_in_packets::<Q>(tier, &mut trial, &rays, packets, answered);
         let [of_group, _] = trial.learnt.apart;
         apart += of_group;
         let [did, by_rays] = trial.learnt.efforts.unwrap_or_default();

@@ -52,7 +52,7 @@ fn sorted<S: Traverse + ?Sized, Q: LevelQuery>(
 ) -> usize {
     let (mut packets, mut answered) = ([RayPacket::BLANK; PACKETS], [Q::none(); PACKETS]);
     let (many, count) = (ManyRays::Packets(rays), rays.len() * RayPacket::COUNT);
-    let (rays, mut answers) = ((gain, many, 0, count), Q::of_packets(answers));
+    let (rays, mut answers) = ((gain, &many, 0, count), Q::of_packets(answers));
     let all = (&mut answered[..], &mut answers);
     in_order::answer::<S, Q>(structure, tier, trace, rays, &mut packets, all) / RayPacket::COUNT
 }

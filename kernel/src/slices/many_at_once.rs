@@ -18,7 +18,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,
     tier: impl Accuracy,
     trace: &mut Trace<'_>,
-    (rays, mut from, count): (ManyRays<'_>, usize, usize),
+    (rays, mut from, count): (&ManyRays<'_>, usize, usize),
     answers: &mut Q::Many<'_>,
 ) -> usize {
     if structure.many_at_once::<Q>(trace, count.saturating_sub(from)).is_none() {
@@ -36,7 +36,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         }
         let to = (from + at_once).min(count);
         let part = rays.part(from, to);
-        structure.many_in_packets::<Q>(tier, trace, part, &mut packets, &mut answered);
+        structure.many_in_packets::<Q>(tier, trace, &part, &mut packets, &mut answered);
         #[cfg(feature = "std")]
         Q::write_at(trace.level, answers, &answered, from, to);
         #[cfg(not(feature = "std"))]

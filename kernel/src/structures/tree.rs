@@ -86,7 +86,7 @@ impl Traverse for Bvh<'_> {
         &self,
         tier: impl Accuracy,
         trace: &mut Trace<'_>,
-        rays: ManyRays<'_>,
+        rays: &ManyRays<'_>,
         packets: &mut [RayPacket],
         answers: &mut [Q::Packet<[f32; 16]>],
     ) {
@@ -95,7 +95,7 @@ impl Traverse for Bvh<'_> {
         let ways = Ways { alone: of_few::<Q>(self, level, count, &mut alone), ..ways(trace) };
         let source = PacketSource::Rays(rays, &mut *packets);
         Q::tree(level, tier.tier(), self, ways, source, answers);
-        let slice = if let ManyRays::Slice(rays) = rays { rays } else { &[] };
+        let slice = if let ManyRays::Slice(rays) = *rays { rays } else { &[] };
         one_by_one::<Q>(self, tier, trace, (slice, packets, alone), answers);
     }
 
