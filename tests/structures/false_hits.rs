@@ -24,6 +24,29 @@ fn false_hits_alone_are_lost() {
     }
 }
 
+/// Rays that start beside a small sphere of a large scene, where boxes are larger by much more than the way to it, and where
+/// spheres behind it are met later.
+#[test]
+fn no_hit_is_lost_near_by_in_a_large_scene() {
+    for (bunches, count, wide, radius) in [(60, 16, 0.3, 0.05), (10, 100, 0.5, 0.2)] {
+        let mut random = Random::new(81, count);
+        let bunch = |random: &mut Random| {
+            let middle = random.in_cube(900.0);
+            let sphere = |_| Sphere { center: middle + random.in_cube(wide), radius };
+            (0..count).map(sphere).collect::<Vec<_>>()
+        };
+        let spheres: Vec<_> = (0..bunches).flat_map(|_| bunch(&mut random)).collect();
+        let aim = |sphere: &Sphere| {
+            let origin = sphere.center + random.in_cube(2.0 * wide);
+            Ray::new(origin, (sphere.center - origin).normalize())
+        };
+        let rays: Vec<_> = spheres.iter().map(aim).collect();
+        for tier in [Tier::Fast, Tier::Geometric] {
+            false_hits_lost(tier, &spheres, &rays, viewpoint_of(&rays));
+        }
+    }
+}
+
 /// As many rays as one call has of a camera's, from one ray on: a group of packets loses no hit that a ray by itself sees.
 #[test]
 fn a_false_hit_within_its_box_is_lost_by_no_call() {

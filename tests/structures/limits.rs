@@ -21,6 +21,8 @@ fn invalid_and_immense_spheres() {
     }
     // Only such spheres.
     let none = vec![Sphere { center: Vec3::ZERO, radius: f32::NAN }; 100];
+    let tree = SphereTree::new(none.as_slice());
+    assert_eq!((tree.bvh().depth(), tree.bvh().size().nodes), (0, 0));
     let immense = vec![Sphere { center: Vec3::new(0.0, 3e12, 0.0), radius: 3e12 }; 40];
     for (tiers, spheres) in [(EXACT, spheres), (BOTH, none), (EXACT, immense), (BOTH, Vec::new())] {
         assert_same(tiers, &mixed(250, 16), &spheres);

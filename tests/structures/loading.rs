@@ -86,17 +86,19 @@ fn too_little_memory() {
 /// Every bit of a tree counts.
 #[test]
 fn another_bit_is_another_tree() {
-    let spheres = of_all_kinds();
-    let words = words_of(&spheres);
-    assert_eq!(error_of(&spheres, &words), None);
     let mut seen = Vec::new();
-    for word in 0..words.len() {
-        for bit in 0..32 {
-            let mut words = words.clone();
-            words[word] ^= 1 << bit;
-            let error = error_of(&spheres, &words);
-            assert!(error.is_some(), "bit {bit} of word {word}");
-            seen.extend(error);
+    // Of one kind alone, whose number another number may exceed, and of all.
+    for spheres in [uniform(40), of_all_kinds()] {
+        let words = words_of(&spheres);
+        assert_eq!(error_of(&spheres, &words), None);
+        for word in 0..words.len() {
+            for bit in 0..32 {
+                let mut words = words.clone();
+                words[word] ^= 1 << bit;
+                let error = error_of(&spheres, &words);
+                assert!(error.is_some(), "bit {bit} of word {word}");
+                seen.extend(error);
+            }
         }
     }
     for error in
@@ -104,6 +106,8 @@ fn another_bit_is_another_tree() {
     {
         assert!(seen.contains(&error), "{error}");
     }
+    let spheres = of_all_kinds();
+    let words = words_of(&spheres);
     for length in 0..words.len() {
         let error = error_of(&spheres, &words[..length]);
         assert_eq!(error, Some(Bvh4Error::Length), "{length} words of {}", words.len());

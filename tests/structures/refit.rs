@@ -1,9 +1,10 @@
 //! Trees whose spheres move answer as a list of the spheres does, however the spheres came there.
 
+mod lent;
+
 use super::scenes::{EYE, camera, mixed, uniform};
 use spherule_kernel::{
-    Bvh, BvhMemory, BvhNode, Coherence, Intersect, Ray, RefitError, Sphere, SphereList, SphereTree,
-    Tier, Trace, Vec3,
+    Coherence, Intersect, Ray, RefitError, Sphere, SphereList, SphereTree, Tier, Trace, Vec3,
 };
 use spherule_referee::random::Random;
 use spherule_tests::variants::{bits, levels};
@@ -170,6 +171,24 @@ fn copies_part() {
     }
 }
 
+/// Copies had one lane. Where they come to lie with a third sphere, of a higher index than theirs, the lowest of those that lie there
+/// is answered.
+#[test]
+fn copies_part_and_meet_another_sphere() {
+    let at = |x: f32, y: f32| Sphere { center: Vec3::new(x, y, 0.0), radius: 1.0 };
+    let ray = Ray::new(Vec3::new(0.0, 5.0, -5.0), Vec3::Z);
+    for count in [3, 6, 9] {
+        let row = |index: usize| at(10.0 * index as f32, 0.0);
+        let copies = [at(0.0, 0.0), at(0.0, 0.0)].into_iter();
+        let mut spheres: Vec<_> = copies.chain((2..count).map(row)).collect();
+        let mut tree = SphereTree::new(spheres.as_slice());
+        spheres[0] = row(count);
+        (spheres[1], spheres[2]) = (at(0.0, 5.0), at(0.0, 5.0));
+        refit(&mut tree, &spheres, &[Tier::Exact], &[ray; 64]);
+        assert_eq!(tree.closest_hit(Tier::Exact, &ray).map(|hit| hit.sphere), Some(1));
+    }
+}
+
 /// The less is left of a tree, the larger; none where all move together.
 #[test]
 fn growth_says_when_to_build_anew() {
@@ -201,6 +220,11 @@ fn growth_says_when_to_build_anew() {
     one_far[5].center.x = 1e6;
     let growth = tree.refit(one_far.as_slice()).expect("as many");
     assert!((1.0..1.5).contains(&growth), "{growth}");
+    // Every ray meets those that no box holds, as ten leaves.
+    let mut immense = start.clone();
+    immense[..160].iter_mut().for_each(|sphere| sphere.radius = 1e30);
+    let growth = tree.refit(immense.as_slice()).expect("as many");
+    assert!((1.2..3.0).contains(&growth), "{growth}");
     assert_eq!(tree.refit(start.as_slice()), Ok(1.0));
 }
 
@@ -215,70 +239,4 @@ fn another_number_is_an_error_and_nothing_changes() {
         assert!(error.to_string().contains(&given.to_string()), "{error}");
         assert_as_list(&tree, &SphereList::from(&spheres), &[Tier::Exact], &rays());
     }
-}
-
-/// Memory of the caller's: as much as a tree needs, and with room for all spheres to leave their boxes.
-#[test]
-fn lent_memory() {
-    let start = SphereList::from(uniform(500));
-    let needed = Bvh::needed(500);
-    let rays = rays();
-    // Telling which of 500 huge spheres is first takes a millisecond a ray.
-    let some = some(&rays, &mut Random::new(28, 0), 16);
-    let far: SphereList =
-        start.spheres().iter().map(|s| Sphere { center: s.center, radius: 1e30 }).collect();
-    let near: SphereList = start
-        .spheres()
-        .iter()
-        .map(|s| Sphere { center: s.center + Vec3::new(s.center.y, 0.0, 0.0), ..s })
-        .collect();
-    for more in [0, 500] {
-        let mut nodes = vec![BvhNode::EMPTY; needed.nodes];
-        let mut places = vec![[f32::NAN; 4]; needed.places];
-        let mut indices = vec![7; needed.places + more];
-        let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
-        assert_eq!(memory.refit(start.spheres()).err(), Some(RefitError::NoTree));
-        assert_eq!(memory.build(start.spheres()).expect("enough").growth(), 1.0);
-        let few = uniform(499);
-        let error = memory.refit(SphereList::from(few).spheres()).expect_err("another number");
-        assert_eq!(error, RefitError::OtherCount { built: 500, given: 499 });
-        match memory.refit(far.spheres()) {
-            Ok(tree) => {
-                assert_eq!(more, 500);
-                assert!(tree.growth() > 2.0, "{}", tree.growth());
-                assert_as_list(&tree, &far, &[Tier::Exact], &some);
-            }
-            Err(RefitError::TooSmall(error)) => assert!(more == 0 && error.needed > error.given),
-            Err(error) => panic!("{error}"),
-        }
-        for list in [&near, &start] {
-            let tree = memory.refit(list.spheres()).expect("all are inside");
-            assert_as_list(&tree, list, &[Tier::Exact], &rays);
-        }
-        assert_eq!(memory.refit(start.spheres()).expect("inside").growth(), 1.0);
-    }
-}
-
-/// So many spheres out of scale that greedy leaves, which take all places there are, would leave no room for their
-/// indices.
-#[test]
-fn spheres_out_of_scale_have_room_when_built() {
-    let mut random = Random::new(27, 0);
-    let mut spheres = Vec::new();
-    // Pairs far from each other, which leaves of their own hold best.
-    while spheres.len() < 1200 {
-        let center = random.in_cube(100.0);
-        for _ in 0..2 {
-            spheres.push(Sphere { center: center + random.in_cube(0.01), radius: 0.5 });
-        }
-    }
-    for index in 0..1000 {
-        spheres.push(Sphere { center: Vec3::new(index as f32 * 1e17, 0.0, 1e20), radius: 1e16 });
-    }
-    let mut rays = mixed(64, 7);
-    rays.extend(
-        (0..1000).map(|index| Ray::new(Vec3::ZERO, Vec3::new(index as f32 * 1e17, 0.0, 1e20))),
-    );
-    let tree = SphereTree::new(spheres.as_slice());
-    assert_as_list(&tree, &SphereList::from(&spheres), &[Tier::Exact], &rays);
 }

@@ -2,10 +2,12 @@
 
 use super::scenes::{self, EYE, camera, diffuse, end_at_answers, parallel, point, uniform};
 use super::{BOTH, EXACT};
-use spherule_kernel::{Ray, Sphere, Vec3, Viewpoint};
+use spherule_kernel::{
+    DepthList, Intersect, Ray, Sphere, SphereList, Tier, Trace, Vec3, Viewpoint,
+};
 use spherule_referee::random::Random;
 use spherule_referee::strategies::SPECIALS;
-use spherule_tests::variants::{assert_same, assert_same_from};
+use spherule_tests::variants::{assert_same, assert_same_from, levels};
 
 /// Every scene from afar, from its middle and along parallels.
 #[test]
@@ -31,6 +33,30 @@ fn long_and_wide_lenses() {
         let direction = Vec3::new(-3.0, 4.0, -9.0);
         let rays = parallel(-1e4 * direction, direction, 1.2, 48);
         assert_same_from(Viewpoint::Direction(direction), BOTH, &rays, &spheres);
+    }
+}
+
+/// Rays beside each other that are steep along one axis alone, and spheres that touch the outermost of them.
+#[test]
+fn steep_along_one_axis() {
+    let mut random = Random::new(87, 0);
+    let mut uniform = |low: f64, high: f64| random.uniform(low, high) as f32;
+    for _ in 0..400 {
+        let (eye, slope) = (Vec3::new(uniform(-1e-3, 1e-3), 0.0, 0.0), uniform(0.05, 0.65));
+        let steps = (0..64).map(|number| number as f32 / 63.0);
+        let direction = |step: f32| Vec3::new(slope + 1e-3 * step, 0.0, 1.0);
+        let rays: Vec<_> = steps.map(|step| Ray::new(eye, direction(step))).collect();
+        let far = 10.0_f32.powf(uniform(0.0, 4.0));
+        let mut sphere = |number: usize| {
+            let (ray, side) =
+                if number.is_multiple_of(2) { (&rays[0], -1.0) } else { (&rays[63], 1.0) };
+            let (depth, along) = (1.0 + far * uniform(0.0, 1.0), ray.direction.normalize());
+            let radius = depth * 0.5_f32.powi(24 - number as i32 % 16);
+            let across = side * radius * Vec3::new(along.z, 0.0, -along.x);
+            Sphere { center: ray.origin + depth * ray.direction + across, radius }
+        };
+        let spheres: Vec<_> = (0..80).map(&mut sphere).collect();
+        assert_same(EXACT, &rays, &spheres);
     }
 }
 
@@ -119,4 +145,32 @@ fn rays_that_do_not_fit() {
         }
     }
     assert_same_from(Viewpoint::Origin(eye), EXACT, &diffuse(500), &spheres);
+}
+
+/// One trace serves several depth lists: what its scratch holds of one is no sphere of the next.
+#[test]
+fn scratch_of_another_list() {
+    let mut random = Random::new(88, 0);
+    let rays = camera(EYE, Vec3::ZERO, 0.25, 48);
+    for level in levels() {
+        let mut scratch = vec![f32::NAN; DepthList::scratch(2000)];
+        let mut trace = Trace::new().at(level).with_scratch(&mut scratch);
+        let mut seen = 0;
+        for (behind, radius) in [(0.0, 0.2), (2.0, 0.02)].repeat(6) {
+            let sphere = |_| (point(&mut random, 1.0) - behind * EYE.normalize(), radius);
+            let list: SphereList = (0..2000).map(sphere).collect();
+            let mut memory = vec![0.0; DepthList::needed(2000)];
+            let sorted = DepthList::sort(list.spheres(), Viewpoint::Origin(EYE), &mut memory);
+            let sorted = sorted.expect("enough memory");
+            let mut hits = [(); 2].map(|()| vec![None; rays.len()]);
+            let mut occluded = [(); 2].map(|()| vec![false; rays.len()]);
+            sorted.closest_hits_with(Tier::Exact, &mut trace, &rays, &mut hits[0]);
+            sorted.any_hits_with(Tier::Exact, &mut trace, &rays, &mut occluded[0]);
+            list.closest_hits(Tier::Exact, &rays, &mut hits[1]);
+            list.any_hits(Tier::Exact, &rays, &mut occluded[1]);
+            assert!(hits[0] == hits[1] && occluded[0] == occluded[1], "{level:?}, {behind}");
+            seen += hits[1].iter().flatten().count();
+        }
+        assert!(seen > 1000, "{seen} hits");
+    }
 }

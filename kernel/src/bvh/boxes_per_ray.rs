@@ -116,3 +116,42 @@ pub(crate) fn boxes_of(BvhNode { low, high, child, .. }: &BvhNode, inverse: f32)
     }
     BoxesPerRay { nodes, leaves: all - nodes }
 }
+
+#[cfg(all(test, proofs))]
+mod tests {
+    extern crate std;
+
+    use super::*;
+    use crate::{SphereList, Vec3};
+
+    /// Half the surface of the body that rays meet.
+    fn surface(spheres: impl Iterator<Item = (Vec3, f32)>) -> f32 {
+        let list: SphereList = spheres.collect();
+        let scale = SceneScale::of(&list.spheres());
+        let unit = scale.factor * scale.factor;
+        1.0 / (inverse_of_body(&list.spheres(), &scale) * unit)
+    }
+
+    /// Of equal spheres a cube around one; of a row a box as long as the row.
+    #[test]
+    fn the_body_is_what_uniform_spheres_fill() {
+        let cube = surface((0..4000).map(|_| (Vec3::new(3.0, -7.0, 2.0), 0.5)));
+        assert!((2.99..3.01).contains(&cube), "{cube}");
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
+            let row = (0..4000).map(|number| (number as f32 * axis, 0.5));
+            let surface = surface(row);
+            // 4,000 by 1 by 1, and a sample of 32.
+            assert!((7000.0..9000.0).contains(&surface), "{surface}");
+        }
+        let few = surface((0..SMALL_TREE).map(|number| (number as f32 * Vec3::X, 0.5)));
+        assert_eq!(few, 0.0, "all boxes count as entered");
+    }
+
+    #[test]
+    fn a_ray_enters_the_root_and_what_no_box_holds() {
+        let boxes = BoxesPerRay { nodes: 2.0, leaves: 3.0 };
+        assert_eq!((boxes.cost(0), boxes.cost(160)), (6.0, 16.0));
+        assert_eq!((boxes + boxes).cost(0), 11.0);
+        assert_eq!([0, LEAF, NO_CHILD].map(|root| boxes.of_root(root).leaves), [3.0, 1.0, 3.0]);
+    }
+}
