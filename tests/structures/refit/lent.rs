@@ -45,39 +45,46 @@ fn lent_memory() {
     }
 }
 
-/// Copies and invalid spheres have no lane. Where they become spheres of their own, and others leave their lanes, each takes room, of which
-/// just enough is asked for; and nothing has changed where there is too little.
+/// Copies and invalid spheres have no lane. Where they become spheres of their own, and others leave their lanes, each takes an index, and
+/// no more are asked for; where there are too few, the tree can be refitted as before.
 #[test]
 fn lent_memory_for_what_had_no_lane() {
-    let (mut own, rays) = (uniform(500), some(&rays(), &mut Random::new(29, 0), 16));
+    let (own, rays) = (uniform(500), some(&rays(), &mut Random::new(29, 0), 16));
     let mut start = own.clone();
     start[300..480].fill(own[40]);
     start[480..].iter_mut().for_each(|sphere| sphere.radius = -1.0);
-    // These leave their lanes.
-    own[..150].iter_mut().for_each(|sphere| sphere.radius = 1e30);
-    let [own, start] = [own, start].map(SphereList::from);
-    let needed = Bvh::needed(500);
-    let refitted = |places: usize| {
-        let mut nodes = vec![BvhNode::EMPTY; needed.nodes];
-        let mut coordinates = vec![[f32::NAN; 4]; needed.places];
-        let mut indices = vec![7; places];
-        let mut memory = BvhMemory::new(&mut nodes, &mut coordinates, &mut indices);
-        memory.build(start.spheres()).expect("enough");
-        let lacking = match memory.refit(own.spheres()) {
-            Ok(tree) => {
-                assert_as_list(&tree, &own, &[Tier::Exact], &rays);
-                None
-            }
-            Err(RefitError::TooSmall(error)) => Some(error.needed - error.given),
-            Err(error) => panic!("{error}"),
+    let (start, needed) = (SphereList::from(start), Bvh::needed(500));
+    for immense in [150, 500] {
+        let mut moved = own.clone();
+        moved[..immense].iter_mut().for_each(|sphere| sphere.radius = 1e30);
+        let moved = SphereList::from(moved);
+        // Returns how many indices are taken before any sphere leaves its lane, and how many a refit asks for if these are too few.
+        let refitted = |given: usize| {
+            let mut nodes = vec![BvhNode::EMPTY; needed.nodes];
+            let mut places = vec![[f32::NAN; 4]; needed.places];
+            let mut indices = vec![7; given];
+            let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
+            let taken = memory.build(start.spheres()).expect("enough").size().places;
+            let asked = match memory.refit(moved.spheres()) {
+                Ok(tree) => {
+                    assert_as_list(&tree, &moved, &[Tier::Exact], &rays);
+                    None
+                }
+                Err(RefitError::TooSmall(error)) => Some(error.needed),
+                Err(error) => panic!("{error}"),
+            };
+            let tree = memory.refit(start.spheres()).expect("what was built");
+            assert_as_list(&tree, &start, &[Tier::Exact], &rays);
+            (taken, asked)
         };
-        let tree = memory.refit(start.spheres()).expect("what was built");
-        assert_as_list(&tree, &start, &[Tier::Exact], &rays);
-        lacking
-    };
-    let lacking = refitted(needed.places).expect("350 have no lane");
-    assert_eq!(refitted(needed.places + lacking), None);
-    assert_eq!(refitted(needed.places + lacking - 1), Some(1));
+        let (taken, asked) = refitted(needed.places);
+        let asked = asked.expect("more than there are");
+        // Those and the 200 that had no lane, except a few copies that had one.
+        let outside = if immense == 500 { 500..=500 } else { 340..=350 };
+        assert!(outside.contains(&(asked - taken)), "{asked} {taken}");
+        assert_eq!(refitted(asked).1, None);
+        assert_eq!(refitted(asked - 1).1, Some(asked));
+    }
 }
 
 /// So many spheres out of scale that greedy leaves, which take all places there are, would leave no room for their
