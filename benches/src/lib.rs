@@ -18,6 +18,7 @@
 #![cfg(feature = "measured")]
 // Not forbidden, since the feature `embree` needs one foreign interface.
 #![deny(unsafe_code)]
+// Published nowhere: links may lead to what is private.
 #![allow(rustdoc::private_intra_doc_links)]
 
 mod agreement;
