@@ -113,7 +113,7 @@ pub fn report() -> Result<(), Box<dyn error::Error>> {
     if chosen(Part::Orders) {
         let order = order.as_deref().and_then(Order::named);
         let rows = orders::measure(effort, (scene.as_deref(), order), rays);
-        put("orders.md", &page::orders::page(&origin, &rows))?;
+        put(&format!("orders-{}.md", page::maker()), &page::orders::page(&origin, &rows))?;
     }
     if chosen(Part::Calls) {
         let results = calls::measure(effort, scene.as_deref());
