@@ -87,6 +87,18 @@ fn meet<L: Lanes, Q: Query, S: SphereRun + ?Sized>(
         tier.with_formula(RayByRay::<L, Q, S> { token, spheres, rays, answers });
         return;
     }
+    meet_filtered::<L, Q, S>(tier, token, (spheres, &mut FilterBlock::empty()), rays, answers);
+}
+
+/// Takes hits that are closer than the answers so far. The block is kept for the next rays that meet the same spheres.
+#[inline(always)]
+pub(crate) fn meet_filtered<L: Lanes, Q: Query, S: SphereRun + ?Sized>(
+    tier: impl Accuracy,
+    token: L::Token,
+    spheres: (&S, &mut FilterBlock),
+    rays: &[RayPacket<L::Array>],
+    answers: &mut [Q::Packet<L::Array>],
+) {
     for_candidates(
         token,
         rays,
@@ -131,7 +143,7 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
     token: L::Token,
     rays: &[RayPacket<L::Array>],
     results: &mut [R],
-    spheres: &S,
+    (spheres, block): (&S, &mut FilterBlock),
     underflow: Underflow,
     done: impl Fn(&R) -> L::Mask,
     test: impl Fn(&mut R, Candidates<'_, L>),
@@ -142,7 +154,9 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
     let list = spheres.list();
     for first in (0..spheres_to_meet).step_by(BLOCK_SPHERES) {
         // The spheres are prepared once for all packets.
-        let mut block = FilterBlock::new(spheres, first, underflow);
+        if block.first != first {
+            block.prepare(spheres, first, underflow);
+        }
         for (packet, result) in rays.iter().zip(results.iter_mut()) {
             let mut rays = RayLanes::<L>::load(token, packet);
             rays.live = rays.live & !done(result);
@@ -152,7 +166,7 @@ pub(crate) fn for_candidates<L: Lanes, R, S: SphereRun + ?Sized>(
             if block.is_elsewhere(&rays) {
                 block.see(spheres, first, underflow, &rays);
             }
-            let mut filter = FilterRays::new(token, &rays, &block);
+            let mut filter = FilterRays::new(token, &rays, block);
             let mut first = first;
             for group in block.groups() {
                 count!(ListGroup);

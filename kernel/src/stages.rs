@@ -7,6 +7,7 @@
 use crate::accuracy::Exact;
 use crate::accuracy::{TierFormula, TierWork};
 use crate::filter::GROUP;
+use crate::filter::block::FilterBlock;
 use crate::geometry::ray::RayPacket;
 use crate::geometry::sphere::Spheres;
 use crate::lanes::{LaneMask, Lanes};
@@ -59,7 +60,7 @@ pub fn stages<Q: Query>(_query: Q, rays: &[RayPacket], spheres: Spheres<'_>) -> 
             (),
             core::slice::from_ref(packet),
             &mut counted,
-            &spheres,
+            (&spheres, &mut FilterBlock::empty()),
             Exact::UNDERFLOW,
             |(answer, _)| Q::done::<f32x16>((), answer),
             |(answer, stages), candidates| {

@@ -52,6 +52,8 @@ pub(crate) fn excess<L: Lanes>(c: [L; 3], r: L, kappa: f32, least_size: f32) -> 
 /// The next spheres of a list, prepared on the stack.
 #[derive(Clone, Debug)]
 pub(crate) struct FilterBlock {
+    /// The number of its first sphere.
+    pub(crate) first: usize,
     groups: [FilterGroup; BLOCK],
     count: usize,
     pub(crate) frame: Frame,
@@ -60,13 +62,22 @@ pub(crate) struct FilterBlock {
 }
 
 impl FilterBlock {
-    /// Spheres `first ..` of the list, as many as a block takes.
-    pub(crate) fn new(
+    /// A block that no sphere is in.
+    #[inline(always)]
+    pub(crate) const fn empty() -> Self {
+        let groups = [FilterGroup::EMPTY; BLOCK];
+        Self { first: usize::MAX, groups, count: 0, frame: Frame::UNIT, from_afar: false }
+    }
+
+    /// Prepares spheres `first ..` of the list, as many as a block takes.
+    pub(crate) fn prepare(
+        &mut self,
         spheres: &(impl SphereRun + ?Sized),
         first: usize,
         underflow: Underflow,
-    ) -> Self {
-        Self::in_frame(spheres, first, Frame::of(spheres, first, underflow, 0.0), KAPPA)
+    ) {
+        self.prepare_in(Frame::of(spheres, first, underflow, 0.0), spheres, first, KAPPA);
+        self.from_afar = false;
     }
 
     /// Whether the live rays may see the block better in another frame: they start out of its range, or others before
@@ -90,28 +101,29 @@ impl FilterBlock {
         let frame = Frame::of(spheres, first, underflow, farthest(rays));
         if frame.scale < self.frame.scale || self.frame.scale < frame.scale {
             let usual = Frame::of(spheres, first, underflow, 0.0);
-            *self = Self::in_frame(spheres, first, frame, KAPPA);
+            self.prepare_in(frame, spheres, first, KAPPA);
             self.from_afar = frame.scale < usual.scale;
         }
     }
 
-    pub(crate) fn in_frame(
+    /// Prepares the spheres in a frame. (In place: to make a block and move it took longer than to answer 64 rays by one sphere.)
+    pub(crate) fn prepare_in(
+        &mut self,
+        frame: Frame,
         spheres: &(impl SphereRun + ?Sized),
         first: usize,
-        frame: Frame,
         kappa: f32,
-    ) -> Self {
-        let mut groups = [FilterGroup::EMPTY; BLOCK];
-        let mut count = 0;
-        for (group, start) in groups.iter_mut().zip((first..spheres.count()).step_by(GROUP)) {
+    ) {
+        (self.first, self.count, self.frame) = (first, 0, frame);
+        for (group, start) in self.groups.iter_mut().zip((first..spheres.count()).step_by(GROUP)) {
+            *group = FilterGroup::EMPTY;
             for slot in 0..GROUP {
                 if let Some(sphere) = spheres.sphere(start + slot) {
                     group.put(slot, &sphere, &frame, kappa);
                 }
             }
-            count += 1;
+            self.count += 1;
         }
-        Self { groups, count, frame, from_afar: false }
     }
 
     /// The groups, in the order of the list.

@@ -25,6 +25,10 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
+    /// The space as it is.
+    pub(crate) const UNIT: Self =
+        Self { scale: 1.0, shift: [0.0; 3], least_size: LEAST_SIZE, least_length: 0.0 };
+
     /// The frame lies around a point among the spheres of a block: coordinate by coordinate the median of three of them,
     /// which one sphere far away cannot move far. It is scaled so that the median of their sizes is some 1; or, if rays
     /// that start at `far` would be out of range then, so that `far` is some 1. Any finite point, and any scale, would be

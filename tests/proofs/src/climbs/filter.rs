@@ -37,7 +37,8 @@ fn with_filter<R>(
     let [x, y, z] = [0, 1, 2].map(|axis| column(sphere.center[axis], neighbour[axis]));
     let r = column(sphere.radius, 0.0);
     let spheres = Spheres::new(&x, &y, &z, &r).expect("equal lengths");
-    let block = FilterBlock::in_frame(&spheres, 0, Frame::of(&spheres, 0, underflow, 0.0), kappa);
+    let mut block = FilterBlock::empty();
+    block.prepare_in(Frame::of(&spheres, 0, underflow, 0.0), &spheres, 0, kappa);
     let rays = lane(&line);
     ask(&FilterRays::widened((), &rays, &block.frame, kappa), &block)
 }
