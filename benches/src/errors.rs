@@ -41,7 +41,7 @@ pub(crate) fn measure(effort: Effort) -> Vec<Errors> {
 
 /// The t of one ray and one sphere.
 fn answer(name: &str, case: &Case) -> Option<f32> {
-    if let Some(tier) = Tier::ALL.into_iter().find(|tier| tier.as_str() == name) {
+    if let Ok(tier) = name.parse::<Tier>() {
         return SphereList::from([case.sphere]).closest_hit(tier, &case.ray).map(|hit| hit.t);
     }
     let scene = Scene::of_case(case.sphere);

@@ -10,8 +10,11 @@ mod build_target;
 #[cfg(feature = "std")]
 pub(crate) mod compiled;
 
+use crate::unknown_name::UnknownName;
 #[cfg(not(feature = "std"))]
 pub(crate) use build_target::{BuildLanes, fill};
+use core::fmt;
+use core::str::FromStr;
 
 /// An instruction set that the CPU has.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +55,36 @@ impl LevelName {
         }
     }
 }
+
+/// Its name, padded as a string is.
+impl fmt::Display for LevelName {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.as_str())
+    }
+}
+
+/// ```
+/// use spherule_kernel::LevelName;
+///
+/// assert_eq!("avx2".parse(), Ok(LevelName::Avx2));
+/// assert!("avx".parse::<LevelName>().is_err());
+/// ```
+impl FromStr for LevelName {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        UnknownName::or(Self::ALL.into_iter().find(|level| level.as_str() == name))
+    }
+}
+
+/// Levels are equal if their names are.
+impl PartialEq for Level {
+    fn eq(&self, other: &Self) -> bool {
+        self.name() == other.name()
+    }
+}
+
+impl Eq for Level {}
 
 impl Level {
     /// Returns the best level that the CPU has; without `std` the build's own. Cost: the first call asks the

@@ -36,6 +36,7 @@ mod stages;
 mod structures;
 mod surface;
 mod trace;
+mod unknown_name;
 
 pub use accuracy::{Accuracy, Exact, Fast, Geometric, Stable, Tier};
 #[cfg(feature = "alloc")]
@@ -72,6 +73,7 @@ pub use spawn_ray::side::{Side, side};
 pub use stages::{Stages, stages};
 pub use surface::{surface, surface_lanes};
 pub use trace::Trace;
+pub use unknown_name::UnknownName;
 pub use wide::{f32x4, f32x8, f32x16};
 
 /// Proofs and tests of what is private. They are no part of this package: `tests/proofs` compiles this source with

@@ -18,6 +18,7 @@ use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 use ray_by_ray::RayByRay;
+pub(crate) use ray_by_ray::is_for as goes_ray_by_ray;
 
 pub use line::{compare_hits, discriminant, roots};
 pub(crate) use object::one_object;
@@ -83,7 +84,7 @@ fn meet<L: Lanes, Q: Query, S: SphereRun + ?Sized>(
     rays: &[RayPacket<L::Array>],
     answers: &mut [Q::Packet<L::Array>],
 ) {
-    if ray_by_ray::is_for::<L>(rays.len()) {
+    if goes_ray_by_ray::<L>(rays.len()) {
         tier.with_formula(RayByRay::<L, Q, S> { token, spheres, rays, answers });
         return;
     }

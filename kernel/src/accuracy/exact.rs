@@ -11,20 +11,21 @@
 //!
 //! `docs/numerics.md` proves the bound; `tests/proofs` searches for the largest errors under it.
 
+mod brackets;
 pub(crate) mod estimate;
 mod from_start;
 mod one_ray;
 mod order;
 mod surface;
 
-use self::estimate::Estimate;
+pub(crate) use self::brackets::Brackets;
 use self::one_ray::Bracketed;
 use super::formula::{Tier, TierFormula};
 use super::range_limits::RangeLimits;
 use super::roots::RayLanes;
 use super::surface::SurfaceLanes;
 use crate::geometry::surface::Surface;
-use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
+use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 use crate::{Ray, Sphere};
 use core::cmp::Ordering;
@@ -65,6 +66,7 @@ impl TierFormula for Exact {
         radius: L,
         active: L::Mask,
         limit: L,
+        any: bool,
     ) -> L {
         let infinity = radius.like(f32::INFINITY);
         let active = active & !range_limits.limit(rays, center, radius, limit);
@@ -79,12 +81,19 @@ impl TierFormula for Exact {
             };
             return infinity.like(t);
         }
-        let (t, decided) = Brackets::new(rays, center, radius, active).decide(rays, limit);
-        let undecided = (active & !decided).bits();
+        let brackets = Brackets::new(rays, center, radius, active);
+        let (t, decided) = brackets.decide(rays, limit);
+        let mut undecided = (active & !decided).bits();
         // Adding zero turns -0 into +0.
-        let t = L::select(active, t + t.like(0.0), infinity);
+        let mut t = L::select(active, t + t.like(0.0), infinity);
         if undecided == 0 {
             return t;
+        }
+        // (Without this, rays along an axis through the centres of few spheres ran at a fourteenth of the speed of ray by ray.)
+        if any {
+            let (accepted, sure) = brackets.surely_accepted(rays);
+            t = L::select(active & !decided & sure, accepted, t);
+            undecided &= !sure.bits();
         }
 
         // Undecided lanes leave the registers as arrays: the code for them is scalar, and runs
@@ -168,94 +177,9 @@ impl Exact {
         active: L::Mask,
         limit: L,
     ) -> L {
-        let t = Self::first_root(rays, &RangeLimits::new(rays), center, radius, active, limit);
+        let t =
+            Self::first_root(rays, &RangeLimits::new(rays), center, radius, active, limit, false);
         L::select(active & t.lt(limit), t, limit)
-    }
-}
-
-/// For every lane the least and the greatest `f32` that each root can round to: both `+inf` where
-/// the line surely misses, `-inf` and `+inf` where it is not known to meet the sphere.
-pub(crate) struct Brackets<L: Lanes> {
-    token: L::Token,
-    near: [L::Array; 2],
-    far: [L::Array; 2],
-}
-
-/// What a bracket tells of a root.
-struct Judged<L: Lanes> {
-    /// The lower end.
-    t: L,
-    /// The bracket is one number, which rule 3 accepts.
-    hit: L::Mask,
-    /// The bracket is one number, or no number in it matters.
-    known: L::Mask,
-}
-
-impl<L: Lanes> Brackets<L> {
-    #[inline(always)]
-    pub(crate) fn new(rays: &RayLanes<L>, center: [L; 3], radius: L, active: L::Mask) -> Self {
-        let mut brackets = Self {
-            token: radius.token(),
-            near: [L::Array::filled(0.0); 2],
-            far: [L::Array::filled(0.0); 2],
-        };
-        let active = active.bits();
-        for part in 0..L::PARTS {
-            let first = part * L::Double::COUNT;
-            if (active >> first) & ((1 << L::Double::COUNT) - 1) != 0 {
-                brackets.fill(
-                    part,
-                    axes!(i => rays.origin[i].widen(part)),
-                    axes!(i => rays.direction[i].widen(part)),
-                    axes!(i => center[i].widen(part)),
-                    radius.widen(part),
-                );
-            }
-        }
-        brackets
-    }
-
-    #[inline(always)]
-    fn fill(
-        &mut self,
-        part: usize,
-        origin: [L::Double; 3],
-        d: [L::Double; 3],
-        center: [L::Double; 3],
-        radius: L::Double,
-    ) {
-        let proven = &Estimate::<L::Double>::PROVEN;
-        let estimate = Estimate::new(origin, d, center, radius, proven);
-        let Estimate { discriminant, error, near, far } = estimate;
-        let meets = error.lt(discriminant);
-        let misses = discriminant.lt(-error);
-        let infinity = error.like(f64::INFINITY);
-        let low_otherwise = L::Double::select(misses, infinity, -infinity);
-        for (bracket, (t, bound)) in [(&mut self.near, near), (&mut self.far, far)] {
-            let [low, high] = bracket;
-            L::narrow(low, part, L::Double::select(meets, t - bound, low_otherwise));
-            L::narrow(high, part, L::Double::select(meets, t + bound, infinity));
-        }
-    }
-
-    /// The t of rules 2 to 4, and the lanes in which that is the answer.
-    #[inline(always)]
-    pub(crate) fn decide(&self, rays: &RayLanes<L>, limit: L) -> (L, L::Mask) {
-        let near = self.judge(self.near, rays, limit);
-        let far = self.judge(self.far, rays, limit);
-        // The far root does not matter where the near one is taken, or lies past the limit.
-        let infinity = limit.like(f32::INFINITY);
-        let t = L::select(near.hit, near.t, L::select(far.hit, far.t, infinity));
-        (t, near.known & (near.hit | far.known | limit.lt(near.t)))
-    }
-
-    /// A bracket past the limit counts as known: its root need not be known any better.
-    #[inline(always)]
-    fn judge(&self, [low, high]: [L::Array; 2], rays: &RayLanes<L>, limit: L) -> Judged<L> {
-        let (low, high) = (L::load(self.token, &low), L::load(self.token, &high));
-        let settled = high.le(low);
-        let out = high.lt(rays.t_min) | rays.t_max.lt(low) | limit.lt(low);
-        Judged { t: low, hit: settled & rays.accept(low), known: settled | out }
     }
 }
 
@@ -301,3 +225,7 @@ fn first<L: Lanes>([x, y, z]: [L; 3], radius: L) -> Sphere {
 fn lane<L: Lanes>(numbers: L) -> f32 {
     numbers.store().get(0)
 }
+
+#[cfg(all(test, proofs))]
+#[cfg(feature = "std")]
+mod tests;

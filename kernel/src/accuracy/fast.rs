@@ -52,6 +52,7 @@ impl TierFormula for Fast {
         radius: L,
         _active: L::Mask,
         _limit: L,
+        _any: bool,
     ) -> L {
         roots(prepared, center, radius).first_accepted(rays)
     }

@@ -5,9 +5,11 @@ use super::surface::{self, SurfaceLanes};
 #[cfg(feature = "std")]
 use crate::geometry::ray::RayPacket;
 use crate::geometry::surface::Surface;
+use crate::unknown_name::UnknownName;
 use crate::{Lanes, Ray, Sphere};
 use core::cmp::Ordering;
-use core::fmt::{Debug, Formatter};
+use core::fmt::{self, Debug, Formatter};
+use core::str::FromStr;
 use glam::Vec3;
 
 /// A tier that is chosen at run time.
@@ -55,8 +57,29 @@ impl Tier {
 
 /// Its name.
 impl Debug for Tier {
-    fn fmt(&self, formatter: &mut Formatter<'_>) -> core::fmt::Result {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.as_str())
+    }
+}
+
+/// Its name, padded as a string is.
+impl fmt::Display for Tier {
+    fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.as_str())
+    }
+}
+
+/// ```
+/// use spherule_kernel::Tier;
+///
+/// assert_eq!("exact".parse(), Ok(Tier::Exact));
+/// assert!("Exact".parse::<Tier>().is_err());
+/// ```
+impl FromStr for Tier {
+    type Err = UnknownName;
+
+    fn from_str(name: &str) -> Result<Self, UnknownName> {
+        UnknownName::or(Self::ALL.into_iter().find(|tier| tier.as_str() == name))
     }
 }
 
@@ -90,7 +113,8 @@ pub trait TierFormula: Copy + Debug {
     /// The t of rules 2 to 4 for one sphere a lane, `+inf` if there is none.
     ///
     /// The result is read only in the lanes `active`, where ray and sphere are valid; it may be
-    /// `+inf` where t is larger than `limit`. The function must return for every bit pattern.
+    /// `+inf` where t is larger than `limit`. If `any` hit will do, it may be another number where there is a t. The function must
+    /// return for every bit pattern.
     fn first_root<L: Lanes>(
         rays: &RayLanes<L>,
         prepared: &Self::Prepared<L>,
@@ -98,6 +122,7 @@ pub trait TierFormula: Copy + Debug {
         radius: L,
         active: L::Mask,
         limit: L,
+        any: bool,
     ) -> L;
 
     /// [`first_root`](TierFormula::first_root) of a valid ray and a valid sphere, without a limit.
@@ -106,7 +131,7 @@ pub trait TierFormula: Copy + Debug {
     fn first_root_of(ray: &Ray, sphere: &Sphere) -> f32 {
         let rays = RayLanes::<f32>::load((), &RayPacket::new(core::slice::from_ref(ray)));
         let (center, radius, limit) = (sphere.center.to_array(), sphere.radius, f32::INFINITY);
-        Self::first_root(&rays, &Self::prepare(&rays), center, radius, true, limit)
+        Self::first_root(&rays, &Self::prepare(&rays), center, radius, true, limit, false)
     }
 
     /// Both roots of the line of a valid ray and a valid sphere, the smaller first, never -0.

@@ -59,6 +59,7 @@ impl TierFormula for Geometric {
         radius: L,
         _active: L::Mask,
         _limit: L,
+        _any: bool,
     ) -> L {
         roots(prepared, center, radius).first_accepted(rays)
     }

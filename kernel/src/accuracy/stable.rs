@@ -98,6 +98,7 @@ impl TierFormula for Stable {
         radius: L,
         active: L::Mask,
         limit: L,
+        _any: bool,
     ) -> L {
         let active = active & !prepared.range_limits.limit(rays, center, radius, limit);
         let infinity = limit.like(f32::INFINITY);

@@ -174,7 +174,7 @@ fn sphere(spheres: &Spheres<'_>, index: u32) -> Option<Sphere> {
     spheres.get(index as usize)
 }
 
-/// Tests one sphere a lane: t if there is a hit in a lane that is `active`, else `+inf`.
+/// Tests one sphere a lane: t if there is a hit in a lane that is `active`, else `+inf`. If `any` hit will do, t may be another number.
 ///
 /// Scene structures test spheres only here, in one function for each tier: a tier is long, and would be compiled into
 /// every traversal several times.
@@ -186,8 +186,9 @@ pub(crate) fn test_lanes<L: Lanes>(
     radius: L,
     active: L::Mask,
     limit: L,
+    any: bool,
 ) -> L {
-    tier.with_formula(LaneTest { rays, center, radius, active, limit })
+    tier.with_formula(LaneTest { rays, center, radius, active, limit, any })
 }
 
 /// Tests a live ray against a valid sphere: t if there is a hit, else `+inf`.
@@ -221,6 +222,7 @@ struct LaneTest<'a, L: Lanes> {
     radius: L,
     active: L::Mask,
     limit: L,
+    any: bool,
 }
 
 impl<L: Lanes> TierWork for LaneTest<'_, L> {
@@ -229,12 +231,13 @@ impl<L: Lanes> TierWork for LaneTest<'_, L> {
     #[inline(always)]
     fn run<F: TierFormula>(self) -> L {
         count!(TierLanes);
-        let Self { rays, center, radius, active, limit } = self;
+        let Self { rays, center, radius, active, limit, any } = self;
         L::out_of_line(
             limit.token(),
             #[inline(always)]
             || {
-                let t = F::first_root(rays, &F::prepare(rays), center, radius, active, limit);
+                let prepared = F::prepare(rays);
+                let t = F::first_root(rays, &prepared, center, radius, active, limit, any);
                 L::select(active, t, limit.like(f32::INFINITY))
             },
         )

@@ -215,7 +215,7 @@ impl<'a, L: Lanes> PacketState<'a, L> {
         let rays = RayLanes::load(token, self.packet);
         let SphereLanes { center, radius, index } =
             SphereLanes::gather(source, self.place, self.shared);
-        let t = test_lanes(tier, &rays, center, radius, active, self.t);
+        let t = test_lanes(tier, &rays, center, radius, active, self.t, Q::ANY);
         self.take(tier, source, active, t, index);
         self.entry = L::select(active, self.entry.like(f32::NAN), self.entry);
         self.shorten::<Q>();

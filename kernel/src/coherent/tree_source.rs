@@ -201,6 +201,12 @@ fn meet<L: Lanes, Q: Query>(
     (source, at_once): (&mut PacketSource<'_, L::Array>, usize),
     answers: &mut [Q::Packet<L::Array>],
 ) {
+    // A ray by itself pays for no block.
+    if linear::goes_ray_by_ray::<L>(answers.len()) {
+        let all = 0..answers.len();
+        source.make::<L>(token, all.clone());
+        return linear::traverse_some::<L, Q>(tier, token, spheres, source.packets(all), answers);
+    }
     let (mut block, mut from) = (FilterBlock::empty(), 0);
     while from < answers.len() {
         let to = answers.len().min(from + at_once);
@@ -213,5 +219,23 @@ fn meet<L: Lanes, Q: Query>(
             linear::meet_filtered::<L, Q, _>(tier, token, spheres, rays, answers);
         }
         from = to;
+    }
+}
+
+#[cfg(all(test, proofs))]
+mod tests {
+    use crate::proofs::work::{Kind, Work};
+    use crate::{Exact, HitPacket, Intersect, Ray, RayPacket, SphereTree, Trace, Vec3};
+
+    /// To prepare the filter takes longer than to test a ray.
+    #[test]
+    fn a_ray_in_one_lane_prepares_no_filter() {
+        let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
+        let packet = [RayPacket::<[f32; 1]>::new(&[Ray::new(Vec3::ZERO, Vec3::Z)])];
+        let mut hits = [HitPacket::<[f32; 1]>::none()];
+        let work = Work::of(|| {
+            tree.closest_hit_lanes::<f32>(Exact, (), &mut Trace::new(), &packet, &mut hits);
+        });
+        assert_eq!((work.count(Kind::ListGroup), hits[0].t), (0, [4.0]));
     }
 }

@@ -10,7 +10,8 @@ use core::cmp::Ordering;
 /// domain).
 ///
 /// Returns `None` if the line misses the sphere, or if either is invalid. A root that is too large for a number is an
-/// infinity of its sign. t counts in multiples of the ray's direction.
+/// infinity of its sign; by `Fast` and `Geometric`, whose squares may leave the range of numbers, it may be NaN, which is no hit. t counts
+/// in multiples of the ray's direction.
 ///
 /// ```
 /// use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};

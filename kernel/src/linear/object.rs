@@ -137,7 +137,7 @@ fn test<F: TierFormula, L: Lanes>(
     let center = sphere.center();
     let center = axes!(i => L::splat(token, center[i]));
     let radius = L::splat(token, sphere.radius);
-    let t = F::first_root(&rays, &F::prepare(&rays), center, radius, rays.live, limits);
+    let t = F::first_root(&rays, &F::prepare(&rays), center, radius, rays.live, limits, false);
     let t = L::select(rays.live, t, infinity);
     let closer = t.lt(limits);
     let mut overwrites = (closer & limits.lt(infinity)).bits();

@@ -25,7 +25,7 @@ pub(crate) fn meet_sphere<F: TierFormula, L: Lanes, Q: Query, const IN_ORDER: bo
     let center = sphere.center();
     let center = axes!(i => limits.like(center[i]));
     let radius = limits.like(sphere.radius);
-    let t = F::first_root(rays, prepared, center, radius, active, limits);
+    let t = F::first_root(rays, prepared, center, radius, active, limits, Q::ANY);
     let t = L::select(active, t, infinity);
     if (F::ORDERS_ROOTS || !IN_ORDER) && !Q::ANY {
         let tied = (t.le(limits) & limits.le(t) & t.lt(infinity)).bits();

@@ -33,7 +33,7 @@ pub fn pair_lanes<L: Lanes>(
     let radius = L::load(token, &spheres.radius);
     let (zero, infinity) = (radius.like(0.0), radius.like(f32::INFINITY));
     let active = rays.live & all_finite(center) & zero.le(radius) & radius.lt(infinity);
-    let t = test_lanes(tier, &rays, center, radius, active, infinity);
+    let t = test_lanes(tier, &rays, center, radius, active, infinity, false);
     let mut hits = HitPacket::none();
     hits.t = t.store();
     let (met, indices) = (t.lt(infinity).bits(), hits.sphere.as_mut());

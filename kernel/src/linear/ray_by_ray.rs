@@ -11,7 +11,7 @@ use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 
 /// Whether so many packets are answered ray by ray: without `std` all of one lane are, since firmware has little stack.
-pub(super) const fn is_for<L: Lanes>(packets: usize) -> bool {
+pub(crate) const fn is_for<L: Lanes>(packets: usize) -> bool {
     L::COUNT == 1 && (packets == 1 || !cfg!(feature = "std"))
 }
 

@@ -299,7 +299,7 @@ impl<L: Lanes> Spawn<L> {
         let (faces, infinity) = (self.faces(direction), step.like(f32::INFINITY));
         let outside = active & on_side & !unsure & !self.inside & faces;
         let rays = RayLanes { origin, direction, t_min: start, t_max: infinity, live: outside };
-        let t = test_lanes(tier, &rays, self.center, self.radius, outside, infinity);
+        let t = test_lanes(tier, &rays, self.center, self.radius, outside, infinity, true);
         let spawned = outside & !t.lt(infinity);
         let unknown = unsure | (on_side & (self.inside | !faces));
         Tried { origin, direction, spawned, unknown }

@@ -119,7 +119,7 @@ impl<'a, T: Accuracy, L: Lanes, Q: Query> DeferredTests<'a, T, L, Q> {
         let center = axes!(i => L::load(token, &self.center[i]));
         let radius = L::load(token, &self.radius);
         let infinity = L::splat(token, f32::INFINITY);
-        let t = test_lanes(self.tier, &rays, center, radius, active, infinity).store();
+        let t = test_lanes(self.tier, &rays, center, radius, active, infinity, Q::ANY).store();
         for lane in 0..L::COUNT {
             let t = t.get(lane);
             if t < f32::INFINITY

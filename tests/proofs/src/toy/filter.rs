@@ -39,7 +39,7 @@ impl Case {
         let shift = shift.map(|k| k.get() as f32);
         let frame = Frame { scale: 1.0, shift, least_size: LEAST_SIZE, least_length: 0.0 };
         let passes = FilterRays::widened((), &rays, &frame, kappa).may_meet(&group, 0);
-        let t = A::first_root(&rays, &A::prepare(&rays), center, r, true, rays.t_max);
+        let t = A::first_root(&rays, &A::prepare(&rays), center, r, true, rays.t_max, false);
         [t.get().is_finite(), passes]
     }
 }

@@ -1,7 +1,7 @@
 use crate::proofs::climb::Random;
 use crate::{
-    Accuracy, Exact, HitPacket, Intersect, Level, LevelName, Ray, RayPacket, Sphere, SphereTree,
-    Stable, Trace, Vec3,
+    Accuracy, Exact, Fast, Geometric, HitPacket, Intersect, Level, LevelName, Ray, RayPacket,
+    Sphere, SphereTree, Stable, Trace, Vec3,
 };
 use alloc::vec::Vec;
 
@@ -127,4 +127,30 @@ fn of_equal_spheres_the_first_is_hit() {
         }
         check(Exact, &many, &rays(&mut random, 240, 1.0));
     }
+}
+
+/// `Fast` and `Geometric` lose hits on lines that miss the sphere's box, in every call the same.
+#[test]
+fn a_sphere_alone_among_bad_ones_is_hit_as_by_many_rays() {
+    fn check(tier: impl Accuracy) {
+        let mut random = Random(274);
+        let bad = [[0.0, 0.0, 5.0, -1.0]; 4];
+        let tree = SphereTree::new([[[0.0, 0.0, 1e4, 1.0]].as_slice(), &bad].concat());
+        let mut near = || 4.0 * random.below(1 << 20) as f32 / (1 << 19) as f32 - 4.0;
+        let rays: [Ray; 512] = core::array::from_fn(|_| {
+            let origin = Vec3::new(near(), near(), 0.0);
+            Ray::new(origin, Vec3::new(near(), near(), 1e4) - origin)
+        });
+        let (mut hits, mut occluded) = ([None; 512], [false; 512]);
+        tree.closest_hits(tier, &rays, &mut hits);
+        tree.any_hits(tier, &rays, &mut occluded);
+        assert!(hits.iter().flatten().count() > 5);
+        for (number, ray) in rays.iter().enumerate() {
+            assert_eq!(tree.closest_hit(tier, ray), hits[number], "{tier:?} {ray:?}");
+            assert_eq!(tree.any_hit(tier, ray), occluded[number], "{tier:?} {ray:?}");
+        }
+    }
+    check(Fast);
+    check(Geometric);
+    check(Exact);
 }

@@ -1,0 +1,105 @@
+//! Between which numbers the roots of a packet and a sphere lie, by double precision with a proven bound.
+
+use super::estimate::Estimate;
+use crate::accuracy::roots::RayLanes;
+use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
+use crate::numeric::axes::axes;
+
+/// For every lane the least and the greatest `f32` that each root can round to: both `+inf` where
+/// the line surely misses, `-inf` and `+inf` where it is not known to meet the sphere.
+pub(crate) struct Brackets<L: Lanes> {
+    token: L::Token,
+    near: [L::Array; 2],
+    far: [L::Array; 2],
+}
+
+/// What a bracket tells of a root.
+struct Judged<L: Lanes> {
+    /// The lower end.
+    t: L,
+    /// The bracket is one number, which rule 3 accepts.
+    hit: L::Mask,
+    /// The bracket is one number, or no number in it matters.
+    known: L::Mask,
+}
+
+impl<L: Lanes> Brackets<L> {
+    #[inline(always)]
+    pub(crate) fn new(rays: &RayLanes<L>, center: [L; 3], radius: L, active: L::Mask) -> Self {
+        let mut brackets = Self {
+            token: radius.token(),
+            near: [L::Array::filled(0.0); 2],
+            far: [L::Array::filled(0.0); 2],
+        };
+        let active = active.bits();
+        for part in 0..L::PARTS {
+            let first = part * L::Double::COUNT;
+            if (active >> first) & ((1 << L::Double::COUNT) - 1) != 0 {
+                brackets.fill(
+                    part,
+                    axes!(i => rays.origin[i].widen(part)),
+                    axes!(i => rays.direction[i].widen(part)),
+                    axes!(i => center[i].widen(part)),
+                    radius.widen(part),
+                );
+            }
+        }
+        brackets
+    }
+
+    #[inline(always)]
+    fn fill(
+        &mut self,
+        part: usize,
+        origin: [L::Double; 3],
+        d: [L::Double; 3],
+        center: [L::Double; 3],
+        radius: L::Double,
+    ) {
+        let proven = &Estimate::<L::Double>::PROVEN;
+        let estimate = Estimate::new(origin, d, center, radius, proven);
+        let Estimate { discriminant, error, near, far } = estimate;
+        let meets = error.lt(discriminant);
+        let misses = discriminant.lt(-error);
+        let infinity = error.like(f64::INFINITY);
+        let low_otherwise = L::Double::select(misses, infinity, -infinity);
+        for (bracket, (t, bound)) in [(&mut self.near, near), (&mut self.far, far)] {
+            let [low, high] = bracket;
+            L::narrow(low, part, L::Double::select(meets, t - bound, low_otherwise));
+            L::narrow(high, part, L::Double::select(meets, t + bound, infinity));
+        }
+    }
+
+    /// The t of rules 2 to 4, and the lanes in which that is the answer.
+    #[inline(always)]
+    pub(crate) fn decide(&self, rays: &RayLanes<L>, limit: L) -> (L, L::Mask) {
+        let near = self.judge(self.near, rays, limit);
+        let far = self.judge(self.far, rays, limit);
+        // The far root does not matter where the near one is taken, or lies past the limit.
+        let infinity = limit.like(f32::INFINITY);
+        let t = L::select(near.hit, near.t, L::select(far.hit, far.t, infinity));
+        (t, near.known & (near.hit | far.known | limit.lt(near.t)))
+    }
+
+    /// A number of a bracket, and the lanes in which a root is accepted whatever number of its bracket it rounds to.
+    #[inline(always)]
+    pub(super) fn surely_accepted(&self, rays: &RayLanes<L>) -> (L, L::Mask) {
+        let [near, far] = [self.near, self.far].map(
+            #[inline(always)]
+            |[low, high]| {
+                let (low, high) = (L::load(self.token, &low), L::load(self.token, &high));
+                (low, rays.accept(low) & rays.accept(high))
+            },
+        );
+        (L::select(near.1, near.0, far.0), near.1 | far.1)
+    }
+
+    /// A bracket past the limit counts as known: its root need not be known any better.
+    #[inline(always)]
+    fn judge(&self, [low, high]: [L::Array; 2], rays: &RayLanes<L>, limit: L) -> Judged<L> {
+        let (low, high) = (L::load(self.token, &low), L::load(self.token, &high));
+        let settled = high.le(low);
+        let out = high.lt(rays.t_min) | rays.t_max.lt(low) | limit.lt(low);
+        Judged { t: low, hit: settled & rays.accept(low), known: settled | out }
+    }
+}
