@@ -7,6 +7,7 @@ use crate::geometry::hit::{Hit, HitPacket};
 use crate::geometry::many::ManyRays;
 use crate::geometry::many_answers::{ManyHits, ManyOccluded};
 use crate::geometry::ray::{Ray, RayPacket};
+use crate::geometry::sphere::Spheres;
 use crate::lanes::Lanes;
 use crate::query::{AnyHit, ClosestHit};
 use crate::slices;
@@ -58,10 +59,10 @@ use crate::trace::Trace;
 ///
 /// With `std`, provide 256 KiB for slices, columns and packets, and 512 in a build that checks for overflow: a tree that sorts the
 /// shuffled rays of a long call takes 130 to 160 KiB by slices with AVX2, 96 to 128 at the baseline. (Rust's threads have 2 MiB
-/// by default.) All other slices take 40 KiB.
+/// by default.) Rays that are not sorted take up to 110 KiB in a tree by slices; in a list 46.
 ///
-/// Without `std`, slices take some 8 KiB in a list. One ray a call takes 0.6 to 2.6 KiB on a Cortex-M4F, by tier and structure;
-/// `docs/targets.md` says how much to provide.
+/// Without `std`, slices take some 8 KiB in a list. On a Cortex-M4F, one ray a call takes 0.6 to 2.9 KiB in a list or a
+/// [`Bvh4`](crate::Bvh4), by tier, and some 8 in a [`Bvh`](crate::Bvh); `docs/targets.md` says how much to provide.
 ///
 /// # Where it runs
 ///
@@ -80,6 +81,23 @@ use crate::trace::Trace;
 /// assert_eq!(hits, [Some(Hit { t: 4.0, sphere: 0 }), None]);
 /// ```
 pub trait Intersect: Lend {
+    /// Returns the list whose indices hits name, for [`surface()`](crate::surface()) and [`compare_hits`](crate::compare_hits).
+    ///
+    /// ```
+    /// use spherule_kernel::{Exact, Intersect, Ray, Sphere, SphereTree, Vec3};
+    ///
+    /// fn hit_sphere(scene: &impl Intersect, ray: &Ray) -> Option<Sphere> {
+    ///     let hit = scene.closest_hit(Exact, ray)?;
+    ///     scene.spheres().get(hit.sphere as usize)
+    /// }
+    ///
+    /// let tree = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]);
+    /// assert_eq!(hit_sphere(&tree, &Ray::new(Vec3::ZERO, Vec3::Z)), tree.spheres().get(0));
+    /// ```
+    fn spheres(&self) -> Spheres<'_> {
+        self.list()
+    }
+
     /// Returns the closest hit of one ray; `None` if it hits nothing.
     ///
     /// Cost: with `std` a tree has a traversal for one ray, and other structures use one lane of a packet. Many rays in one call are

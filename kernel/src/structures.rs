@@ -36,6 +36,9 @@ pub trait Lend {
 
     /// Lends it.
     fn lend(&self) -> impl Deref<Target = Self::Lent<'_>>;
+
+    /// The list of its spheres.
+    fn list(&self) -> Spheres<'_>;
 }
 
 impl<S: Traverse> Lend for S {
@@ -48,10 +51,18 @@ impl<S: Traverse> Lend for S {
     fn lend(&self) -> impl Deref<Target = Self::Lent<'_>> {
         self
     }
+
+    #[inline(always)]
+    fn list(&self) -> Spheres<'_> {
+        self.of_list()
+    }
 }
 
 /// The traversals of a structure.
 pub trait Traverse {
+    /// The list that hits name spheres of.
+    fn of_list(&self) -> Spheres<'_>;
+
     /// Whether some rays of a call go one by one, since they are few, and are faster so than together.
     #[cfg(feature = "std")]
     #[inline(always)]
@@ -236,8 +247,14 @@ impl<Q: Query> LevelQuery for Q {}
 /// Implements the traversals of a structure: by a function that is generic over lanes, and by the same function compiled for every
 /// level.
 macro_rules! traverse {
-    ($structure:ty, |$this:ident, $trace:ident| $traverse:path = $compiled:ident($($argument:expr),*)) => {
+    ($structure:ty, |$this:ident, $trace:ident| $list:expr, $traverse:path = $compiled:ident($($argument:expr),*)) => {
         impl Traverse for $structure {
+            #[inline(always)]
+            fn of_list(&self) -> Spheres<'_> {
+                let $this = self;
+                $list
+            }
+
             #[inline(always)]
             fn in_lanes<L: Lanes, Q: Query>(
                 &self,
@@ -270,11 +287,20 @@ macro_rules! traverse {
     };
 }
 
-traverse!(Spheres<'_>, |spheres, trace| linear::traverse = list(*spheres));
-traverse!(DepthList<'_>, |list, trace| list_source::traverse = depth_list(list, trace.scratch));
+traverse!(Spheres<'_>, |spheres, trace| *spheres, linear::traverse = list(*spheres));
+traverse!(
+    DepthList<'_>,
+    |list, trace| list.spheres(),
+    list_source::traverse = depth_list(list, trace.scratch)
+);
 
 /// It answers in one lane, whatever the level.
 impl Traverse for Bvh4<'_> {
+    #[inline(always)]
+    fn of_list(&self) -> Spheres<'_> {
+        self.spheres()
+    }
+
     #[inline(always)]
     fn in_lanes<L: Lanes, Q: Query>(
         &self,

@@ -1,6 +1,6 @@
 //! The caller's memory in which a tree is built and refitted.
 
-use super::build::join::InTurn;
+use super::build::join::{InTurn, Join};
 use super::build::refit::refit;
 use super::built::Built;
 use super::node::BvhNode;
@@ -38,6 +38,13 @@ impl fmt::Display for RefitError {
 }
 
 impl core::error::Error for RefitError {}
+
+/// So that `?` takes the error of [`BvhMemory::build`], too.
+impl From<TooSmall> for RefitError {
+    fn from(error: TooSmall) -> Self {
+        Self::TooSmall(error)
+    }
+}
 
 /// The caller's memory in which a [`Bvh`] is built, and refitted when its spheres move.
 ///
@@ -110,9 +117,32 @@ impl<'m> BvhMemory<'m> {
     /// # Ok::<(), spherule_kernel::TooSmall>(())
     /// ```
     pub fn build<'a>(&'a mut self, spheres: Spheres<'a>) -> Result<Bvh<'a>, TooSmall> {
+        self.build_with(&InTurn, spheres)
+    }
+
+    /// Builds the same tree, as [`Bvh::build_with`] does.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build).
+    ///
+    /// ```
+    /// use spherule_kernel::{Bvh, BvhMemory, InTurn, Spheres};
+    ///
+    /// const NEEDED: usize = Bvh::needed(1).places;
+    /// let (mut nodes, mut places, mut indices) = ([], [[0.0; 4]; NEEDED], [0; NEEDED]);
+    /// let mut memory = BvhMemory::new(&mut nodes, &mut places, &mut indices);
+    /// let spheres = Spheres::new(&[0.0], &[0.0], &[5.0], &[1.0]).expect("equal lengths");
+    /// assert_eq!(memory.build_with(&InTurn, spheres)?.spheres().len(), 1);
+    /// # Ok::<(), spherule_kernel::TooSmall>(())
+    /// ```
+    pub fn build_with<'a>(
+        &'a mut self,
+        join: &impl Join,
+        spheres: Spheres<'a>,
+    ) -> Result<Bvh<'a>, TooSmall> {
         self.tree = None;
         let Self { nodes, places, indices, tree } = self;
-        let built = Bvh::built(&InTurn, &spheres, nodes, places, indices)?;
+        let built = Bvh::built(join, &spheres, nodes, places, indices)?;
         *tree = Some((built, spheres.len()));
         Ok(Bvh::of(built, spheres, nodes, places, indices))
     }

@@ -61,17 +61,20 @@ impl SphereTree {
     /// Builds the same tree as [`new`](Self::new), with parts of the work running at once on the caller's threads.
     ///
     /// # Errors
-    /// `TryReserveError` if there is no memory.
+    /// `TryReserveError` if there is no memory, or if there are more than 2^27 spheres.
     ///
     /// ```
-    /// use spherule_kernel::{InTurn, SphereList, SphereTree};
+    /// use spherule_kernel::{InTurn, SphereTree};
     ///
-    /// let list = SphereList::from([[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]]);
-    /// let tree = SphereTree::build_with(&InTurn, list)?;
+    /// let tree = SphereTree::build_with(&InTurn, [[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, 1.0]])?;
     /// assert_eq!(tree.bvh().depth(), 0);
     /// # Ok::<(), std::collections::TryReserveError>(())
     /// ```
-    pub fn build_with(join: &impl Join, spheres: SphereList) -> Result<Self, TryReserveError> {
+    pub fn build_with(
+        join: &impl Join,
+        spheres: impl Into<SphereList>,
+    ) -> Result<Self, TryReserveError> {
+        let spheres = spheres.into();
         let needed = Bvh::needed(spheres.spheres().len());
         let (mut nodes, mut places, mut indices) = (Vec::new(), Vec::new(), Vec::new());
         // Nothing is written before there is memory for all.
@@ -118,7 +121,7 @@ impl SphereTree {
     /// for (second, sphere) in [(7.0, 0), (0.5, 1)] {
     ///     let growth = tree.refit(at(second))?;
     ///     if growth > 1.5 {
-    ///         tree = SphereTree::new(tree.list().clone());
+    ///         tree = SphereTree::new(tree.into_list());
     ///     }
     ///     let hit = tree.closest_hit(Exact, &Ray::new(Vec3::ZERO, Vec3::Z));
     ///     assert_eq!(hit.map(|hit| hit.sphere), Some(sphere));
@@ -177,6 +180,20 @@ impl SphereTree {
     #[must_use]
     pub const fn list(&self) -> &SphereList {
         &self.spheres
+    }
+
+    /// Gives the list back, without a copy: to build anew, of other spheres or of more.
+    ///
+    /// ```
+    /// use spherule_kernel::SphereTree;
+    ///
+    /// let mut list = SphereTree::new([[0.0, 0.0, 5.0, 1.0]]).into_list();
+    /// list.push([0.0, 0.0, 9.0, 1.0]);
+    /// assert_eq!(SphereTree::new(list).list().len(), 2);
+    /// ```
+    #[must_use]
+    pub fn into_list(self) -> SphereList {
+        self.spheres
     }
 }
 

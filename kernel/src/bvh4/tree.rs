@@ -47,7 +47,8 @@ pub(super) const HEADER: usize = 5;
 /// ```
 /// use spherule_kernel::{Bvh4, Spheres};
 ///
-/// // In the firmware: `static TREE: [u32; Bvh4::needed(1)] = words(include_bytes!("tree.le"));`
+/// // In the firmware:
+/// // `static TREE: [u32; include_bytes!("tree.le").len() / 4] = words(include_bytes!("tree.le"));`
 /// const fn words<const N: usize>(bytes: &[u8]) -> [u32; N] {
 ///     let ((chunks, _), mut words, mut index) = (bytes.as_chunks::<4>(), [0; N], 0);
 ///     while index < N {

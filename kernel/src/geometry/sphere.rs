@@ -45,6 +45,24 @@ impl From<[f32; 4]> for Sphere {
     }
 }
 
+/// A copy, so that an iterator that lends spheres becomes a list.
+///
+/// ```
+/// # #[cfg(feature = "alloc")] {
+/// use spherule_kernel::{Sphere, SphereList};
+///
+/// let spheres = [[0.0, 0.0, 5.0, 1.0], [0.0, 0.0, 9.0, -1.0]].map(Sphere::from);
+/// let valid: SphereList = spheres.iter().filter(|sphere| sphere.is_valid()).collect();
+/// assert_eq!(valid.len(), 1);
+/// # }
+/// ```
+impl From<&Self> for Sphere {
+    #[inline]
+    fn from(sphere: &Self) -> Self {
+        *sphere
+    }
+}
+
 /// The radius is `w`.
 impl From<Vec4> for Sphere {
     #[inline]

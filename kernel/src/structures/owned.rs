@@ -14,6 +14,11 @@ impl Lend for SphereList {
     fn lend(&self) -> impl Deref<Target = Self::Lent<'_>> {
         Loan(self.spheres())
     }
+
+    #[inline(always)]
+    fn list(&self) -> Spheres<'_> {
+        self.spheres()
+    }
 }
 
 impl Lend for SphereTree {
@@ -22,6 +27,11 @@ impl Lend for SphereTree {
     #[inline(always)]
     fn lend(&self) -> impl Deref<Target = Self::Lent<'_>> {
         Loan(self.bvh())
+    }
+
+    #[inline(always)]
+    fn list(&self) -> Spheres<'_> {
+        Self::list(self).spheres()
     }
 }
 

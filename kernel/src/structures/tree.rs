@@ -29,6 +29,7 @@ use crate::geometry::many::ManyRays;
 #[cfg(feature = "std")]
 use crate::geometry::ray::Ray;
 use crate::geometry::ray::RayPacket;
+use crate::geometry::sphere::Spheres;
 use crate::lanes::Lanes;
 use crate::query::{ClosestHit, Query};
 use crate::trace::Trace;
@@ -36,6 +37,11 @@ use crate::trace::Trace;
 use core::ops::Range;
 
 impl Traverse for Bvh<'_> {
+    #[inline(always)]
+    fn of_list(&self) -> Spheres<'_> {
+        self.spheres()
+    }
+
     #[cfg(feature = "std")]
     #[inline(always)]
     fn goes_one_by_one(&self, trace: &Trace<'_>, rays: &ManyRays<'_>, range: Range<usize>) -> bool {
