@@ -358,16 +358,12 @@ _spherule() {
             return 0
             ;;
         spherule__subcmd__tradeoff)
-            opts="-h --size --samples --projection --eye --target --fov --orbit --order --format --columns --strict --topology --frame --frames --follow --radius --json --structure --threads --level --help"
+            opts="-h --samples --projection --eye --target --fov --orbit --order --format --columns --strict --topology --follow --radius --json --structure --threads --level --frames --frame --size --help"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 2 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 return 0
             fi
             case "${prev}" in
-                --size)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
                 --samples)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -408,14 +404,6 @@ _spherule() {
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
-                --frame)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
-                --frames)
-                    COMPREPLY=($(compgen -f "${cur}"))
-                    return 0
-                    ;;
                 --radius)
                     COMPREPLY=($(compgen -f "${cur}"))
                     return 0
@@ -430,6 +418,18 @@ _spherule() {
                     ;;
                 --level)
                     COMPREPLY=($(compgen -W "baseline avx2 avx512" -- "${cur}"))
+                    return 0
+                    ;;
+                --frames)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --frame)
+                    COMPREPLY=($(compgen -f "${cur}"))
+                    return 0
+                    ;;
+                --size)
+                    COMPREPLY=($(compgen -f "${cur}"))
                     return 0
                     ;;
                 *)

@@ -133,7 +133,6 @@ complete -c spherule -n "__fish_spherule_using_subcommand trace" -l pairs -d 'Te
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l any -d 'Write only whether rays hit anything'
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l json -d 'Report as a JSON object'
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -s h -l help -d 'Print help (see more with \'--help\')'
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l size -d 'Picture size in cells, each 1 to 4096, without the viewer [default: 80x24; on a terminal all rows but the last]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l samples -d 'Rays a cell, 1 to 256; auto: more where they are needed' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
 parallel\t'They do not'"
@@ -158,8 +157,6 @@ xtc\t'GROMACS\'s compressed trajectory'
 urdf\t'A robot whose parts are spheres'"
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l columns -d 'Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l topology -d 'The file that says what the particles of an .xtc are' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l frame -d 'The frame that is shown first, from 0 [default: the first with particles]' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l frames -d 'Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l radius -d 'How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
 brute\t'All spheres, from end to end'
@@ -169,6 +166,9 @@ complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l threads -
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
 avx2\t''
 avx512\t''"
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l frames -d 'Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l frame -d 'The frame that is measured, from 0 [default: the first with particles]' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l size -d 'Size of the picture in cells, each 1 to 4096 [default: 80x24]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l strict -d 'Refuse particles of unknown types, which are drawn grey otherwise'
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l follow -d 'Wait for frames that are still being written'
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l json -d 'Report as a JSON object'

@@ -25,7 +25,7 @@ use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand,
 pub use crowd::CrowdArguments;
 pub use overlay::Overlay;
 pub use scene::SceneArguments;
-use second_scene::{late_command, second_scene};
+use second_scene::{late_command, meant, second_scene};
 use spherule_kernel::{Level, Tier};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -205,6 +205,9 @@ pub struct TraceArguments {
 
 /// A scene whose rays are timed and judged.
 #[derive(Args, Clone, Debug)]
+#[command(mut_arg("frames", |frames| frames.hide(true)))]
+#[command(mut_arg("frame", |frame| frame.help("The frame that is measured, from 0 [default: the first with particles]")))]
+#[command(mut_arg("size", |size| size.help("Size of the picture in cells, each 1 to 4096 [default: 80x24]")))]
 pub struct TradeoffArguments {
     /// The scene, and its rays.
     #[command(flatten)]
@@ -238,8 +241,12 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Request, E
         Arguments::from_arg_matches(&matches)
     });
     match matches {
-        Ok(arguments) => match late_command(&program, &words) {
-            None => Ok(Request::Run(Box::new(arguments))),
+        Ok(mut arguments) => match late_command(&program, &words) {
+            None => {
+                let scene = &mut arguments.picture.scene;
+                scene.file.meant = meant(&scene.name, &program);
+                Ok(Request::Run(Box::new(arguments)))
+            }
             Some(message) => Err(Error::Input(message)),
         },
         Err(error) if error.exit_code() == 0 => Ok(Request::Print(error.to_string())),

@@ -5,12 +5,13 @@
 
 mod arrays;
 mod asked_again;
+mod command;
 mod report;
 
-use crate::error::{Error, write_stdout};
+use crate::error::{Error, cause, write_stdout};
 use crate::npy::ray;
 use arrays::{Answers, Array, DTYPE_F4, DTYPE_U1, paired_rows};
-use asked_again::smaller;
+use asked_again::make_smaller;
 use clap::Args;
 use report::Report;
 use spherule_kernel::{Ray, Sphere};
@@ -20,10 +21,14 @@ use spherule_referee::judge::Judge;
 use spherule_referee::rules::{Precision, Rules};
 use spherule_referee::truth::Shared;
 use spherule_referee::verdict::Kind;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Rows that are read at once.
 const ROWS: usize = 1 << 14;
+/// The most bytes of rules. Parsed, they may take 540 times the memory.
+const LONGEST_RULES: usize = 64 << 10;
 
 /// Rays, spheres and answers.
 #[derive(Args, Clone, Debug)]
@@ -64,7 +69,8 @@ pub struct JudgeArguments {
 /// Judges the answers that `arguments` name, and prints the counts, the worst failures and the simplest.
 ///
 /// # Errors
-/// [`Error::Input`] if a file is not what it should be, or holds something that is no answer.
+/// [`Error::Input`] if a file is not what it should be, or t and id contradict each other; [`Error::Running`], behind the report, if
+/// the command of `--again` does not answer.
 pub fn judge(arguments: &JudgeArguments) -> Result<(), Error> {
     let mut spheres = Array::open(&arguments.spheres, &[DTYPE_F4], Some(4))?;
     let mut rays = Array::open(&arguments.rays, &[DTYPE_F4], Some(8))?;
@@ -107,11 +113,9 @@ pub fn judge(arguments: &JudgeArguments) -> Result<(), Error> {
     answers.check_end()?;
     let mut smallest: Vec<Failure> =
         Kind::ALL.iter().filter_map(|&kind| judge.simplest(kind).cloned()).collect();
-    if let Some(command) = &arguments.again {
-        for failure in &mut smallest {
-            *failure = smaller(command, failure, rules)?;
-        }
-    }
+    let asked = arguments.again.as_ref().map_or(Ok(()), |command| {
+        smallest.iter_mut().try_for_each(|failure| make_smaller(command, failure, rules))
+    });
     let report = Report {
         judge: &judge,
         smallest: &smallest,
@@ -120,7 +124,8 @@ pub fn judge(arguments: &JudgeArguments) -> Result<(), Error> {
         pairs: arguments.pairs,
     };
     let text = if arguments.json { report.json() } else { report.text(arguments.chart) };
-    write_stdout(text.as_bytes())
+    write_stdout(text.as_bytes())?;
+    asked
 }
 
 /// How many rows are read next, if so many are left.
@@ -152,30 +157,42 @@ fn read_families(families: &mut Array, from: u64, count: usize) -> Result<Vec<u8
     }
 }
 
-/// The rules of the file, with the precision that the answers have.
+/// The rules of the file. Where it states no precision, it is that of the answers.
 fn rules(path: Option<&Path>, answers: &Answers) -> Result<Rules, Error> {
-    let mut rules = Rules::CONTRACT;
-    if let Some(path) = path {
-        let name = path.display();
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| Error::Input(format!("{name}: {}", crate::error::cause(&error))))?;
-        rules = toml::from_str(&text).map_err(|error| in_a_line(path, &text, &error))?;
-        rules = rules.consistent().map_err(|why| Error::Input(format!("{name}: {why}")))?;
-        if rules.precision == Precision::F64 && !answers.are_double() {
-            let what = "precision = \"f64\", and the answers are float32";
-            return Err(Error::Input(format!("{name}: {what}")));
-        }
+    let usual = if answers.are_double() { Precision::F64 } else { Precision::F32 };
+    let Some(path) = path else { return Ok(Rules { precision: usual, ..Rules::CONTRACT }) };
+    let wrong = |what: &str| Error::Input(format!("{}: {what}", path.display()));
+    let text = rules_text(path).map_err(|what| wrong(&what))?;
+    let in_a_line = |error| in_a_line(path, &text, &error);
+    let mut rules: Rules = toml::from_str(&text).map_err(in_a_line)?;
+    let stated: toml::Table = toml::from_str(&text).map_err(in_a_line)?;
+    if !stated.contains_key("precision") {
+        rules.precision = usual;
     }
-    if answers.are_double() {
-        rules.precision = Precision::F64;
+    if rules.precision == Precision::F64 && !answers.are_double() {
+        return Err(wrong("precision = \"f64\", and the answers are float32"));
     }
-    Ok(rules)
+    rules.consistent().map_err(|why| wrong(&why.to_string()))
+}
+
+/// The text of a file of rules.
+fn rules_text(path: &Path) -> Result<String, String> {
+    let mut bytes = Vec::new();
+    let read = File::open(path)
+        .and_then(|file| file.take(LONGEST_RULES as u64 + 1).read_to_end(&mut bytes));
+    read.map_err(|error| cause(&error))?;
+    if bytes.len() > LONGEST_RULES {
+        return Err(format!("rules have at most {} KiB", LONGEST_RULES >> 10));
+    }
+    String::from_utf8(bytes).map_err(|_| "not valid UTF-8".to_owned())
 }
 
 /// The place of the error in the file, and the first line of its message.
 fn in_a_line(path: &Path, text: &str, error: &toml::de::Error) -> Error {
-    let place = error.span().map_or(0, |span| span.start.min(text.len()));
-    let line = text[..place].matches('\n').count() + 1;
+    let place = error.span().map_or(0, |span| span.start);
+    let before = text.get(..place).unwrap_or(text);
+    let line = before.matches('\n').count() + 1;
+    let column = before.chars().rev().take_while(|&letter| letter != '\n').count() + 1;
     let what = error.message().lines().next().unwrap_or_default();
-    Error::Input(format!("{}:{line}: {what}", path.display()))
+    Error::Input(format!("{}:{line}:{column}: {what}", path.display()))
 }

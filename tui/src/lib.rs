@@ -13,6 +13,7 @@ pub mod choice;
 pub mod color;
 pub mod coloring;
 pub mod compare;
+mod counted;
 pub mod draw;
 pub mod encode;
 pub mod error;

@@ -19,7 +19,6 @@ use crate::machine::check_floats;
 use crate::pixels::Output;
 use crate::progress::Progress;
 use crate::scene::Scene;
-use crate::scene::frames::Frames;
 use crate::scene::notes::say;
 use crate::structure::scene::SceneStructures;
 use crate::style::{Charset, ColorDepth, PIPE_SIZE, Style};
@@ -170,7 +169,8 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
         } else {
             format!("frame {frame} is shown; there are more: {by}")
         };
-        return say_more(&mut frames, frame, what);
+        frames.report_more(frame, what);
+        return Ok(());
     };
     // What some frames do not have is told once, of the first of them: before the end, which a file that is followed has not.
     let source = frames.source().to_owned();
@@ -208,17 +208,6 @@ fn open(arguments: &PictureArguments) -> Result<Subject, Error> {
 
 /// From so many spheres on, building a tree takes a while.
 const MANY: usize = 1_000_000;
-
-/// Says `what` if there are frames that are not shown.
-fn say_more(frames: &mut Frames, frame: usize, what: String) -> Result<(), Error> {
-    // A wrong frame behind the picture does not make it wrong. What a pipe may bring is not waited for.
-    let is_asked = frames.can_go_back() && !frames.follows();
-    if is_asked && frames.has(frame + 1).unwrap_or(false) {
-        frames.note(what);
-        frames.report();
-    }
-    Ok(())
-}
 
 /// The shape of the terminal's cells, if it knows how many pixels they have.
 fn terminal_aspect(told: Option<(u16, u16)>) -> Option<f32> {

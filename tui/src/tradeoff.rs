@@ -12,6 +12,7 @@ mod report;
 mod speed;
 mod watch;
 
+use crate::arguments::files::Subject;
 use crate::arguments::{ComputingArguments, TradeoffArguments};
 use crate::choice::Auto;
 use crate::draw::{picture_workload, sample_grid};
@@ -55,7 +56,7 @@ pub struct Question<'a> {
 /// # Errors
 /// [`Error`] if there is no such scene, or the report cannot be written.
 pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
-    let scene = arguments.scene.open()?.scene;
+    let Subject { scene, frame, frames } = arguments.scene.open()?;
     let ComputingArguments { structure, threads, level } = arguments.computing;
     let threads = Threads::new(threads)?;
     let (columns, rows) = arguments.scene.size.unwrap_or(PIPE_SIZE);
@@ -78,7 +79,12 @@ pub fn tradeoff(arguments: &TradeoffArguments) -> Result<(), Error> {
     drop(progress);
     let name = &arguments.scene.name;
     let text = |report: Report| if arguments.json { report.json(name) } else { report.table(name) };
-    write_stdout(report.map(text).unwrap_or_default().as_bytes())
+    write_stdout(report.map(text).unwrap_or_default().as_bytes())?;
+    if let Some(mut frames) = frames {
+        let what = format!("frame {frame} is measured; there are more: --frame N");
+        frames.report_more(frame, what);
+    }
+    Ok(())
 }
 
 impl Question<'_> {

@@ -34,6 +34,9 @@ pub struct FileArguments {
     /// Wait for frames that are still being written
     #[arg(long)]
     pub follow: bool,
+    /// What was meant by a name that is no scene's.
+    #[arg(skip)]
+    pub(super) meant: Option<String>,
 }
 
 /// A scene, and the file it is from.
@@ -64,9 +67,16 @@ impl FileArguments {
         let one = |frame: usize| frame..frame.saturating_add(1);
         let asked = self.frames.clone().unwrap_or(self.frame.map_or(0..usize::MAX, one));
         let first = asked.start;
-        match open(name, &reading).map_err(wrong)? {
+        let opened = open(name, &reading).map_err(|error| {
+            let meant = self.meant.as_ref().map_or_else(String::new, |meant| format!("; {meant}"));
+            Error::Input(format!("{error}{meant}"))
+        })?;
+        match opened {
             Opened::Builtin(_) if first > 0 => {
                 Err(Error::Input(format!("{name}: frame {first}: it has one frame")))
+            }
+            Opened::Builtin(_) if asked.end > 1 && asked.end < usize::MAX => {
+                Err(Error::Input(format!("{name}: frames 0..{}: it has one frame", asked.end)))
             }
             Opened::Builtin(scene) => Ok(Subject { scene, frame: 0, frames: None }),
             Opened::File(mut frames) => {

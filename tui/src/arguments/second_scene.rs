@@ -1,4 +1,4 @@
-//! What is wrong with a word behind others: it is a second scene, or a command, or the first word was to be one.
+//! What is wrong with a word behind others: it is a second scene, or a command, or the first word was to be one. What was meant by that.
 
 use crate::scene::builtin::{builtin, shipped_file};
 use crate::scene::file_name::FileName;
@@ -10,30 +10,26 @@ use std::path::Path;
 /// So many letters of a command are no accident.
 const ALIKE: usize = 4;
 
-/// The message about a word behind the scene, which clap takes for a subcommand; `None` if `error` is another one.
-/// `words` follow the name of the program.
+/// The message about a word behind the scene, which clap takes for a subcommand, or about options of a command that the first word was
+/// to be; `None` if `error` is another one. `words` follow the name of the program.
 pub(super) fn second_scene(
     error: &clap::Error,
     program: &Command,
     words: &[OsString],
 ) -> Option<String> {
-    let Some(ContextValue::String(second)) = error.get(ContextKind::InvalidSubcommand) else {
-        return None;
+    let second = match (error.kind(), error.get(ContextKind::InvalidSubcommand)) {
+        (ErrorKind::ArgumentConflict, Some(ContextValue::String(second))) => Some(second),
+        (ErrorKind::UnknownArgument, _) => None,
+        _ => return None,
     };
-    if error.kind() != ErrorKind::ArgumentConflict {
-        return None;
-    }
-    if is_command(second, program) {
+    if let Some(second) = second.filter(|second| is_command(second, program)) {
         return Some(comes_first(second));
     }
-    let first = words.first().and_then(|word| word.to_str()).filter(|word| !is_scene(word));
-    let meant = first.and_then(|first| Some((first, command_like(first, program)?)));
-    Some(meant.map_or_else(
-        || format!("'{second}' is a second scene; one is shown"),
-        |(first, command)| {
-            format!("'{first}' is neither a scene nor a command; {command} is a command")
-        },
-    ))
+    let first = words.first().and_then(|word| word.to_str());
+    let meant = first.and_then(|first| Some((first, meant(first, program)?)));
+    meant
+        .map(|(first, meant)| format!("'{first}' is neither a scene nor a command; {meant}"))
+        .or_else(|| second.map(|second| format!("'{second}' is a second scene; one is shown")))
 }
 
 /// The message about a command behind options, which is read as the scene; `None` if there is none. The first of `words` is the name of
@@ -68,10 +64,42 @@ fn is_scene(word: &str) -> bool {
     Path::new(word).exists() || builtin(word).is_some() || shipped_file(word).is_some()
 }
 
-/// The command that begins as `word` does.
+/// What says which command, or `--help`, was meant by a word that is neither a scene nor a command; `None` if it is like neither.
+pub(super) fn meant(word: &str, program: &Command) -> Option<String> {
+    // Others are names of files.
+    let is_word = word.bytes().all(|byte| byte.is_ascii_alphabetic());
+    if !is_word || is_scene(word) || program.find_subcommand(word).is_some() {
+        return None;
+    }
+    if word == "help" {
+        return Some("--help is an option".to_owned());
+    }
+    command_like(word, program).map(|command| format!("{command} is a command"))
+}
+
+/// The command of which `word` is the beginning, or which is a slip of the hand away from it, or begins as it does.
 fn command_like<'a>(word: &str, program: &'a Command) -> Option<&'a str> {
-    let alike = |name: &str| word.bytes().zip(name.bytes()).take_while(|(a, b)| a == b).count();
     let commands = program.get_subcommands().filter(|command| !command.is_hide_set());
-    let nearest = commands.map(Command::get_name).max_by_key(|name| alike(name));
-    nearest.filter(|name| alike(name) >= ALIKE)
+    let names: Vec<&str> = commands.map(Command::get_name).collect();
+    let whole = names.iter().find(|name| word.len() >= ALIKE && name.starts_with(word));
+    let slip = names.iter().find(|name| is_slip(word.as_bytes(), name.as_bytes()));
+    let nearest = names.iter().max_by_key(|name| alike(word.bytes(), name.bytes()));
+    let nearest = nearest.filter(|name| alike(word.bytes(), name.bytes()) >= ALIKE);
+    whole.or(slip).or(nearest).copied()
+}
+
+/// Whether one letter is another, missing or too many, or two neighbours have changed places.
+fn is_slip(word: &[u8], name: &[u8]) -> bool {
+    let first = alike(word.iter(), name.iter());
+    let (word, name) = (&word[first..], &name[first..]);
+    let last = alike(word.iter().rev(), name.iter().rev());
+    match (&word[..word.len() - last], &name[..name.len() - last]) {
+        ([a, b], [c, d]) => (a, b) == (d, c),
+        (word, name) => word.len() <= 1 && name.len() <= 1,
+    }
+}
+
+/// How many are the same before the first that differ.
+fn alike<T: PartialEq>(a: impl Iterator<Item = T>, b: impl Iterator<Item = T>) -> usize {
+    a.zip(b).take_while(|(a, b)| a == b).count()
 }

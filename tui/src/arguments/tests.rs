@@ -227,6 +227,15 @@ fn names_are_accepted_and_listed() {
     }
 }
 
+/// It measures one frame, and no terminal decides about its size.
+#[test]
+fn the_help_of_tradeoff_has_what_it_takes() {
+    let Ok(Request::Print(help)) = parsed("tradeoff --help") else { panic!("no help") };
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains("--frame <N>") && !help.contains("--frames"), "{help}");
+    assert!(help.contains("1 to 4096 [default: 80x24] --samples"), "{help}");
+}
+
 #[test]
 fn help_and_version_are_no_errors() {
     for line in ["--help", "-h", "--version", "trace --help"] {

@@ -152,10 +152,10 @@ impl Answers {
     }
 
     /// The next answers, from row `from` on; to pairs if `spheres` is `None`, else of so many
-    /// spheres.
+    /// spheres. All but +inf is answered as a hit: the judge counts NaN, -inf and spheres past the last.
     ///
     /// # Errors
-    /// [`Error::Input`] with the first row that is no answer.
+    /// [`Error::Input`] with the first row whose t and id contradict each other, or whose id is no index.
     pub(super) fn read(
         &mut self,
         from: u64,
@@ -169,17 +169,11 @@ impl Answers {
         } else {
             bytes.as_chunks().0.iter().map(|&t| f32::from_le_bytes(t).into()).collect()
         };
-        let is_answer = |t: f64| t.is_finite() || t == f64::INFINITY;
-        if let Some(row) = t.iter().position(|&t| !is_answer(t)) {
-            let what =
-                format!("row {}: t is {}; a number, or +inf of a miss", from + row as u64, t[row]);
-            return Err(self.t.wrong(&what));
-        }
+        let answer = |t: f64, sphere| (t != f64::INFINITY).then_some(Answer { t, sphere });
         let Some(array) = &mut self.id else {
             // A pair has one sphere.
             let sphere = if spheres.is_none() { Some(0) } else { None };
-            let answer = |t: f64| t.is_finite().then_some(Answer { t, sphere });
-            return Ok(t.into_iter().map(answer).collect());
+            return Ok(t.into_iter().map(|t| answer(t, sphere)).collect());
         };
         let dtype = array.dtype;
         let bytes = array.read(count)?;
@@ -194,25 +188,23 @@ impl Answers {
         let mut answers = Vec::with_capacity(count);
         for (index, (&t, &id)) in t.iter().zip(&ids).enumerate() {
             let row = from + index as u64;
-            let known = match spheres {
+            let sphere = match spheres {
                 // A pair's sphere is that of its row.
-                None => id == row as i64,
-                Some(spheres) => id >= 0 && (id as u64) < spheres,
+                None => (id == row as i64).then_some(0),
+                Some(_) => (id >= 0).then(|| u32::try_from(id).unwrap_or(u32::MAX)),
             };
-            let what = match (t.is_finite(), id) {
-                (true, -1) => format!("row {row}: t = {t} where nothing is hit; +inf with id -1"),
-                (false, id) if id != -1 => {
-                    format!("row {row}: id {id} without a hit; -1 with t = +inf")
-                }
-                (true, id) if !known => match spheres {
+            let what = if id == -1 && t.is_finite() {
+                format!("row {row}: t = {t} where nothing is hit; +inf with id -1")
+            } else if id != -1 && t == f64::INFINITY {
+                format!("row {row}: id {id} without a hit; -1 with t = +inf")
+            } else if id != -1 && sphere.is_none() {
+                match spheres {
                     None => format!("row {row}: id {id}; {row} of a pair, or -1"),
                     Some(spheres) => format!("row {row}: id {id} of {spheres} spheres"),
-                },
-                _ => {
-                    let sphere = Some(if spheres.is_none() { 0 } else { id as u32 });
-                    answers.push(t.is_finite().then_some(Answer { t, sphere }));
-                    continue;
                 }
+            } else {
+                answers.push(answer(t, sphere));
+                continue;
             };
             return Err(array.wrong(&what));
         }

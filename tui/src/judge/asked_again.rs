@@ -1,6 +1,7 @@
 //! Failures made smaller: the program that was judged is asked about simpler cases, by its command.
 
 use super::arrays::Answers;
+use super::command;
 use crate::cases::{bytes_of_row, header};
 use crate::error::Error;
 use spherule_referee::case::Case;
@@ -13,9 +14,7 @@ use std::fs;
 use std::io;
 use std::ops::Range;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// How long the smallest case of a kind is looked for.
 const SHRINKING: Duration = Duration::from_secs(5);
@@ -24,13 +23,17 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// The most cases of one call: more than a case has simpler ones, since a call may be dear.
 const AT_ONCE: usize = 4096;
 
-/// The failure, or a smaller one of its kind.
+/// Makes the failure smaller, one of its kind, as long as the command answers.
 ///
 /// # Errors
-/// [`Error::Running`] if the command cannot be asked, fails, hangs, or answers something else than its cases.
-pub(super) fn smaller(command: &str, failure: &Failure, rules: Rules) -> Result<Failure, Error> {
+/// [`Error`] if the command cannot be asked, fails, hangs, or answers something else than its cases.
+pub(super) fn make_smaller(
+    command: &str,
+    failure: &mut Failure,
+    rules: Rules,
+) -> Result<(), Error> {
     let mut wrong = None;
-    let found = shrink(failure, (SHRINKING, AT_ONCE), |candidates| {
+    *failure = shrink(failure, (SHRINKING, AT_ONCE), |candidates| {
         if wrong.is_some() {
             return Vec::new();
         }
@@ -39,7 +42,7 @@ pub(super) fn smaller(command: &str, failure: &Failure, rules: Rules) -> Result<
             Vec::new()
         })
     });
-    wrong.map_or(Ok(found), Err)
+    wrong.map_or(Ok(()), Err)
 }
 
 /// How each case fails, if it does; cases of several spheres are left out.
@@ -67,7 +70,7 @@ fn failures(
     };
     write(&spheres, 8..12)?;
     write(&rays, 0..8)?;
-    ask(command, [&spheres, &rays, &t])?;
+    command::run(command, [&spheres, &rays, &t], PATIENCE)?;
     let mut answers = Answers::open(&t, None)?;
     if answers.rows() != rows as u64 {
         let what = format!("--again: {} answers to {rows} cases", answers.rows());
@@ -80,34 +83,4 @@ fn failures(
         Kind::ALL.into_iter().find_map(|kind| judge.worst(kind).cloned())
     };
     Ok(alone.iter().zip(answers).map(judged).collect())
-}
-
-/// Runs the command with three more arguments.
-fn ask(command: &str, files: [&Path; 3]) -> Result<(), Error> {
-    let wrong = |what: String| Error::Running(format!("--again: {what}"));
-    let failed = |error: io::Error| Error::of_output("--again", &error);
-    let mut child = Command::new("sh")
-        .args(["-c", &format!("exec {command} \"$@\""), "sh"])
-        .args(files)
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .map_err(failed)?;
-    let start = Instant::now();
-    loop {
-        match child.try_wait().map_err(failed)? {
-            Some(status) if status.success() => return Ok(()),
-            Some(status) => return Err(wrong(format!("the command ends with {status}"))),
-            None if start.elapsed() >= PATIENCE => {
-                let _ = child.kill();
-                let _ = child.wait();
-                return Err(wrong(format!(
-                    "the command has not ended in {} s",
-                    PATIENCE.as_secs()
-                )));
-            }
-            None => sleep(Duration::from_millis(2)),
-        }
-    }
 }

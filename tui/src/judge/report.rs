@@ -1,5 +1,6 @@
 //! What `spherule judge` prints.
 
+use crate::counted::counted;
 use serde_json::{Value, json};
 use spherule_kernel::Sphere;
 use spherule_referee::counts::Counts;
@@ -24,7 +25,8 @@ pub(super) struct Report<'a> {
 impl Report<'_> {
     /// A table, the picture if it is asked for, and of each kind of failure the worst and the simplest.
     pub(super) fn text(&self, chart: bool) -> String {
-        let mut text = format!("{} rays, {} spheres\n", self.rays, self.spheres);
+        let (rays, spheres) = (counted(self.rays, "ray"), counted(self.spheres, "sphere"));
+        let mut text = format!("{rays}, {spheres}\n");
         // Writing to memory cannot fail.
         let _ = write_counts(self.judge, &mut text);
         if chart {

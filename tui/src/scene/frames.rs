@@ -80,6 +80,16 @@ impl Frames {
         self.context.notes.note(text);
     }
 
+    /// Reports `what` if there are frames behind number `frame`.
+    pub(crate) fn report_more(&mut self, frame: usize, what: String) {
+        // A wrong frame behind the picture does not make it wrong. What a pipe may bring is not waited for.
+        let is_asked = self.can_go_back() && !self.follows();
+        if is_asked && self.has(frame + 1).unwrap_or(false) {
+            self.note(what);
+            self.report();
+        }
+    }
+
     /// Reads frame `index`, from 0; `None` if there is none, or, in a file that is followed, not yet.
     ///
     /// Frames in between are passed over. To read a frame before the next one, the file must be one that can be read

@@ -2,6 +2,7 @@
 
 use super::orders::Orders;
 use crate::choice::name;
+use crate::counted::counted;
 use crate::harmless;
 use crate::machine::RUSTC;
 use crate::structure::object_order::Counts;
@@ -74,11 +75,6 @@ pub(super) struct LightingErrors {
     pub(super) shadows: usize,
 }
 
-/// So many of something.
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
 /// The number rounded to four significant digits.
 fn rounded(number: f64) -> f64 {
     format!("{number:.3e}").parse().unwrap_or(number)
@@ -88,11 +84,11 @@ impl Report {
     /// Spheres, and how they are searched.
     fn search(&self) -> String {
         let order = if self.order == Order::Object { "object order, " } else { "" };
-        format!("{}, {order}{}", counted(self.spheres, "sphere"), name(&self.structure))
+        format!("{}, {order}{}", counted(self.spheres as u64, "sphere"), name(&self.structure))
     }
 
     fn thread_count(&self) -> String {
-        counted(self.threads, "thread")
+        counted(self.threads as u64, "thread")
     }
 
     /// What was searched, and by what, in a line.
@@ -155,7 +151,7 @@ impl Report {
         for tier in &self.tiers {
             if tier.rays_kind != kind {
                 kind = tier.rays_kind;
-                text += &format!("\n{}\n", counted(tier.rays, &format!("{kind} ray")));
+                text += &format!("\n{}\n", counted(tier.rays as u64, &format!("{kind} ray")));
                 for words in HEAD {
                     text += &row(&words.map(str::to_owned));
                 }

@@ -4,13 +4,14 @@ mod drawing;
 
 use super::colors::Colors;
 use super::state::State;
-use crate::arguments::{PictureArguments, SceneArguments};
+use crate::arguments::{Arguments, PictureArguments, SceneArguments};
 use crate::choice::name;
 use crate::harmless::is_obeyed;
 use crate::length::length;
 use crate::scene::Scene;
 use crate::scene::radii::RadiusBy;
 use crate::view::{Lens, LensKind};
+use clap::CommandFactory;
 use drawing::drawing;
 use glam::DVec3;
 use spherule_kernel::Vec3;
@@ -112,9 +113,11 @@ fn radius_of_film(asked: &SceneArguments, frame: usize, scene: &Scene) -> Option
     scene.spheres().iter().all(|sphere| sphere.radius == radius).then(|| radius.to_string())
 }
 
-/// The scene as a word that is no option.
+/// The scene as a word that is neither an option nor a command.
 fn scene_name(name: &[u8]) -> String {
-    if name.starts_with(b"-") && name != b"-" {
+    let is_option = name.starts_with(b"-") && name != b"-";
+    let is_command = |name: &str| Arguments::command().find_subcommand(name).is_some();
+    if is_option || str::from_utf8(name).is_ok_and(is_command) {
         quoted(&[b"./", name].concat())
     } else {
         quoted(name)
@@ -147,7 +150,6 @@ fn escaped(chunk: &Utf8Chunk<'_>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arguments::Arguments;
     use crate::color::Srgb;
     use crate::coloring::ColorBy;
     use crate::scene::attributes::Attributes;
@@ -198,7 +200,11 @@ mod tests {
     }
 
     #[test]
-    fn a_name_that_begins_with_a_dash_is_no_option() {
+    fn a_name_is_neither_an_option_nor_a_command() {
+        for command in ["trace", "generate"] {
+            let line = of_words(&["--", command], 0);
+            assert!(line.starts_with(&format!("spherule ./{command} --eye ")), "{line}");
+        }
         let line = of_words(&["--topology=-a.gro", "--", "-dash.toml"], 0);
         assert!(line.starts_with("spherule ./-dash.toml --eye "), "{line}");
         assert!(line.ends_with(" --topology=-a.gro"), "{line}");

@@ -82,6 +82,10 @@ fn whatever_shows_one_frame_says_that_there_are_more() {
         says(words, "more.xyz: frame 0 is shown; there are more: --frame N\n");
         writes(&format!("{path} --size 20x5 {words} --frame 1"));
     }
+    let output = run(split(&format!("tradeoff {path} --size 4x4")));
+    let more = "more.xyz: frame 0 is measured; there are more: --frame N\n";
+    assert!(output.status.success() && stderr(&output).ends_with(more), "{}", stderr(&output));
+    prints(&format!("tradeoff {path} --size 4x4 --frame 1"));
 }
 
 /// A frame without what is asked for, between frames that have it.

@@ -1,8 +1,11 @@
 //! `spherule cases` and `spherule judge`: what one writes the other judges, and what both refuse.
 
+mod again;
+mod precision;
+
 use crate::run::{
-    array, failure, file, folder, json, names, npy, printed, prints, refusal, refuses, run,
-    run_with_input, split,
+    array, file, folder, json, names, npy, printed, prints, refusal, refuses, run, run_with_input,
+    split,
 };
 use serde_json::Value;
 use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};
@@ -53,6 +56,14 @@ impl Files {
     fn judge(&self, options: &str) -> String {
         let Self { spheres, rays, t, .. } = self;
         format!("judge {options} --spheres {spheres} --rays {rays} --t {t}")
+    }
+
+    /// The same answers in double precision.
+    fn double(self) -> Self {
+        let t = floats(&self.t);
+        let doubles: Vec<u8> = t.iter().flat_map(|&t| f64::from(t).to_le_bytes()).collect();
+        fs::write(&self.t, column("<f8", t.len(), &doubles)).expect("a writable folder");
+        self
     }
 
     fn report(&self, options: &str) -> Value {
@@ -127,20 +138,28 @@ fn rays_that_share_spheres_are_judged_with_what_they_name() {
     assert_eq!(found, [0, 0, 1, 1, 0, 0].map(Some), "{report}");
 }
 
+/// NaN, -inf, and a sphere past the last, whose lowest bits are those of the first.
 #[test]
-fn double_answers_and_rules() {
-    let files = Files::new("double", "--count 480 --family tangent,ordinary", "exact");
-    let t = floats(&files.t);
-    let doubles: Vec<u8> = t.iter().flat_map(|&t| f64::from(t).to_le_bytes()).collect();
-    let double = file("judge-double.t8.npy", column("<f8", t.len(), &doubles));
-    let files = Files { t: double, ..files };
-    let wrong = |report: &Value, by: &str| {
-        KINDS.iter().map(|kind| report["all"][by][kind].as_u64().expect("a count")).sum::<u64>()
-    };
-    assert_eq!(wrong(&files.report("--pairs"), "by_rules"), 0);
-    let rules = file("judge-double.toml", "tangents = \"miss\"\ninterval = \"open-start\"\n");
-    let report = files.report(&format!("--pairs --rules {rules}"));
-    assert!(wrong(&report, "by_rules") > 100 && wrong(&report, "by_contract") == 0, "{report}");
+fn what_is_no_answer_is_counted() {
+    let files = Files::new("no-answer", "--count 4 --family ordinary", "exact");
+    let t = [f32::NAN, f32::NEG_INFINITY, 1.0, f32::INFINITY].map(f32::to_le_bytes).concat();
+    let id = [-1, 3, 1_i64 << 32, -1].map(i64::to_le_bytes).concat();
+    fs::write(&files.t, column("<f4", 4, &t)).expect("a writable folder");
+    fs::write(&files.id, column("<i8", 4, &id)).expect("a writable folder");
+    let id = format!("--id {}", files.id);
+    for (options, expected) in [("--pairs", 2), ("", 2), (&*id, 3)] {
+        let report = files.report(options);
+        assert_eq!(report["all"]["by_rules"]["no_answer"], expected, "{options}: {report}");
+        let worst = &report["failures"][5]["worst"];
+        assert_eq!((&worst["row"], &worst["answer"]["t"]), (&0.into(), &Value::Null), "{worst}");
+    }
+}
+
+#[test]
+fn one_ray_and_one_sphere_are_singular() {
+    let files = Files::new("one", "--count 1 --family ordinary", "exact");
+    let report = prints(&files.judge("--pairs"));
+    assert!(report.starts_with("1 ray, 1 sphere\n"), "{report}");
 }
 
 #[test]
@@ -158,9 +177,6 @@ fn answers_that_are_none() {
     let inf = f32::INFINITY;
     let misses = || four([inf; 4]);
     for (t, id, end) in [
-        (four([1.0, f32::NAN, inf, inf]), None, "row 1: t is NaN; a number, or +inf of a miss"),
-        (four([-inf, inf, inf, inf]), None, "row 0: t is -inf; a number, or +inf of a miss"),
-        (four([1.0, inf, inf, inf]), Some([4, -1, -1, -1]), "row 0: id 4 of 4 spheres"),
         (four([1.0, inf, inf, inf]), Some([-2, -1, -1, -1]), "row 0: id -2 of 4 spheres"),
         (four([1.0; 4]), Some([0, 1, -1, 3]), "row 2: t = 1 where nothing is hit; +inf with id -1"),
         (misses(), Some([-1, 2, -1, -1]), "row 1: id 2 without a hit; -1 with t = +inf"),
@@ -177,8 +193,9 @@ fn answers_that_are_none() {
     let pair = refused(four([1.0; 4]), Some([0, 0, 2, 3]), "--pairs");
     assert!(pair.ends_with("row 1: id 0; 1 of a pair, or -1"), "{pair}");
     for (rules, part) in [
-        ("\nshape = 3\n", ".toml:2: unknown field `shape`"),
-        ("tangents = \"maybe\"", ".toml:1: unknown variant `maybe`"),
+        ("\nshape = 3\n", ".toml:2:1: unknown field `shape`"),
+        ("tangents = \"maybe\"", ".toml:1:12: unknown variant `maybe`"),
+        (&*"#".repeat((64 << 10) + 1), ": rules have at most 64 KiB"),
         ("smallest = 2.0\nlargest = 1.0\n", "no size is between them"),
         ("inside = \"solid\"\n", "inside = \"solid\" answers t = 0"),
         ("precision = \"f64\"\n", "the answers are float32"),
@@ -253,30 +270,4 @@ fn cases_that_cannot_be_written_leave_nothing() {
     let output = run(split(&format!("{cases} {}/s.npy", folder.display())));
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(names(&folder), [""; 0]);
-}
-
-#[test]
-fn what_is_asked_again_is_smaller() {
-    let files = Files::new("again", "--count 240 --family far-1e4", "fast");
-    let program = env!("CARGO_BIN_EXE_spherule");
-    let script = format!(
-        "'{program}' trace --pairs --accuracy fast --spheres \"$1\" --rays \"$2\" --out-t \"$3\""
-    );
-    let script = file("judge-again.sh", script);
-    let judge = files.judge("--pairs --json");
-    let again = |command: &str| {
-        run(split(&judge).into_iter().chain(["--again", command].map(str::to_owned)))
-    };
-    let report = printed(again(&format!("sh '{script}'")));
-    let report: Value = serde_json::from_str(&report).expect("JSON");
-    let digits = |failure: &Value| {
-        failure["ray_hex"].to_string().len() + failure["spheres_hex"].to_string().len()
-    };
-    for kind in report["failures"].as_array().expect("a list") {
-        let (worst, smallest) = (&kind["worst"], &kind["smallest"]);
-        assert_eq!(worst.is_null(), smallest.is_null());
-        assert!(worst.is_null() || digits(smallest) < digits(worst), "{smallest}");
-    }
-    let fails = failure(&again("false"));
-    assert!(fails.starts_with("--again: the command ends with"), "{fails}");
 }
