@@ -266,5 +266,12 @@ pub(crate) fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
     if brackets > MOST_BRACKETS {
         return Err(format!("a header of {brackets} brackets is none of a plain array of numbers"));
     }
-    NpyHeader::from_reader(bytes.as_slice()).map_err(|error| cause(&error))
+    NpyHeader::from_reader(bytes.as_slice()).map_err(|error| {
+        let what = cause(&error);
+        // The parser draws where it has stopped, in several lines: at `3L`, as Python 2 writes an integer.
+        match what.contains('\n') {
+            true => "a header that is no Python 3 dictionary".to_owned(),
+            false => what,
+        }
+    })
 }

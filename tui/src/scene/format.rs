@@ -1,5 +1,6 @@
 //! The formats of files: what each is told by, and who reads it.
 
+mod channels;
 mod context;
 mod gro;
 mod lammps;

@@ -16,6 +16,9 @@ const SPACING: f32 = 64.0 * f32::EPSILON;
 /// A ground is at least so many times as large as all that stands on it.
 const GROUND: f32 = 100.0;
 
+/// At up to so many times the distance of the eye, the origins of parallel rays are rounded by less than a sample.
+const FARTHEST: f32 = 1024.0;
+
 /// The radius of the largest scene that can be looked at from far enough.
 const LARGEST: f32 = 1e30;
 
@@ -67,15 +70,16 @@ pub fn framed(spheres: Spheres<'_>, aspect: f32) -> View {
 }
 
 /// As [`framed`], but of `sphere`, and with the direction, the field of view and the kind of projection of `view`.
-/// Parallel rays start no nearer than those of `view`.
+/// Parallel rays start no nearer than those of `view`, unless those start so far away that rounding would be seen.
 #[must_use]
 pub fn reframed(view: &View, sphere: Sphere, aspect: f32) -> View {
     let way = view.eye - view.target;
     let outward = direction(way).unwrap_or(Vec3::Z);
     let framed = around(sphere, outward, view.up, view.lens, aspect);
     // A picture does not show where parallel rays start. But the farther away they start, the more their origins are rounded, as in `view`.
+    let (near, far) = (length(framed.eye - framed.target), length(way));
     match view.lens {
-        Lens::Parallel { .. } if length(framed.eye - framed.target) < length(way) => {
+        Lens::Parallel { .. } if near < far && far < FARTHEST * near => {
             View { eye: framed.target + way, ..framed }
         }
         _ => framed,
@@ -222,8 +226,13 @@ mod tests {
         let from_far = reframed(&far, one, 1.0);
         assert_eq!(from_far.eye, Vec3::new(1.0, 0.0, 2000.0));
         assert_eq!(from_far.lens, Lens::Parallel { height: 2.0 });
-        let near = View { eye: Vec3::new(0.0, 0.0, 0.1), ..far };
-        assert!(reframed(&near, one, 1.0).eye.z > 2.0);
+        // Beside the target; and where floats are half of the radius apart.
+        let [near, too_far] = [0.125, 4_194_304.0].map(|z| {
+            let view = View { eye: Vec3::new(0.0, 0.0, z), ..far };
+            reframed(&view, one, 1.0)
+        });
+        assert!(near.eye.z > 2.0);
+        assert_eq!(too_far, near);
     }
 
     #[test]

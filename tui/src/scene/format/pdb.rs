@@ -6,6 +6,7 @@
 //! <https://cci.lbl.gov/hybrid_36/>.
 
 mod autodock;
+mod chains;
 mod symbol;
 
 use super::Context;
@@ -20,6 +21,7 @@ use crate::scene::number::{number, number_or_nan, parsed};
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use crate::scene::symbols::of_symbol;
+use chains::Chains;
 use glam::DVec3;
 use symbol::{begins_left, symbol_of};
 
@@ -72,6 +74,7 @@ pub(super) fn frame(input: &mut Input, context: &mut Context) -> Result<Option<S
 struct Atoms {
     particles: Particles,
     locations: Locations,
+    chains: Chains,
     /// The symbols that have been seen, and whether they are elements'.
     symbols: Vec<([u8; 2], bool)>,
     /// Whether names begin in the first column, whatever their elements, ...
@@ -87,6 +90,7 @@ impl Atoms {
         Self {
             particles,
             locations: Locations::default(),
+            chains: Chains::default(),
             symbols: Vec::new(),
             are_left: false,
             undecided: Vec::new(),
@@ -101,7 +105,8 @@ impl Atoms {
         };
         let name = [fixed[12], fixed[13], fixed[14], fixed[15]];
         // Chain, number and insertion tell a residue.
-        self.locations.enter(&fixed[21..27]);
+        let chain = self.chains.start(fixed);
+        self.locations.enter(&fixed[chain..27]);
         if fixed[16] != b' ' && !self.locations.is_first(&name) {
             return Ok(());
         }
@@ -110,7 +115,8 @@ impl Atoms {
         };
         let center = DVec3::new(at(30, "x")?, at(38, "y")?, at(46, "z")?);
         self.particles.center(center);
-        let residue_field = [fixed[17], fixed[18], fixed[19], fixed[20]];
+        let last = if chain == 21 { fixed[20] } else { b' ' };
+        let residue_field = [fixed[17], fixed[18], fixed[19], last];
         let residue_name = residue_field.trim_ascii();
         let symbol = [76, 77].map(|column: usize| bytes.get(column).copied().unwrap_or(b' '));
         let kind = autodock::type_of(bytes);
@@ -127,7 +133,7 @@ impl Atoms {
         let chain: &[u8] = match fixed[21] {
             b' ' if kind.is_some() => b"",
             b' ' => bytes.get(72..bytes.len().min(76)).unwrap_or_default().trim_ascii(),
-            _ => &fixed[21..22],
+            _ => &fixed[chain..22],
         };
         particles.naming(Naming::Chain).push(chain);
         particles.residue_numbers.push(residue_number(fixed[22..26].trim_ascii()));

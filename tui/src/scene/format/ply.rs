@@ -4,6 +4,7 @@
 
 mod header;
 
+use super::channels::srgb;
 use super::words::Words;
 use crate::color::Srgb;
 use crate::scene::Scene;
@@ -82,7 +83,7 @@ fn vertices(
     kept.truncate(MOST_KEPT);
     let columns = kept.iter().map(|&index| NumberColumn::named(names[index].name.as_str()));
     let mut particles = Particles { columns: columns.collect(), ..Particles::default() };
-    let mut values = vec![0.0; names.len()];
+    let (mut values, mut shares) = (vec![0.0; names.len()], Vec::new());
     for vertex in 0..element.count {
         let line = row(input, encoding, element, &mut values, vertex)?;
         let center = DVec3::new(values[x], values[y], values[z]);
@@ -95,17 +96,24 @@ fn vertices(
         })?;
         if let Some(color) = color {
             let scale = match names[color[0]].kind {
-                Scalar::Float | Scalar::Double => 255.0,
-                Scalar::Uint(2) => 1.0 / 257.0,
-                _ => 1.0,
+                Scalar::Float | Scalar::Double => None,
+                Scalar::Uint(2) => Some(1.0 / 257.0),
+                _ => Some(1.0),
             };
-            let channel = |index: usize| (values[index] * scale).round().clamp(0.0, 255.0) as u8;
-            particles.colors.push(Srgb(color.map(channel)));
+            match scale {
+                Some(scale) => {
+                    let channel =
+                        |index: usize| (values[index] * scale).round().clamp(0.0, 255.0) as u8;
+                    particles.colors.push(Srgb(color.map(channel)));
+                }
+                None => shares.push(color.map(|index| values[index] as f32)),
+            }
         }
         for (column, &index) in particles.columns.iter_mut().zip(&kept) {
             column.values.push(values[index] as f32);
         }
     }
+    particles.colors.extend(srgb(&shares));
     particles.finish(notes, &source)
 }
 

@@ -1,7 +1,7 @@
 //! What an input is, told by its first bytes.
 
 use super::Format;
-use super::table::{Separator, comment, has_axes};
+use super::table::{Separator, comment, has_axes, says_separator};
 use super::words::{count, split};
 use crate::scene::number::number;
 
@@ -19,7 +19,7 @@ const PDB: [&str; 24] = [
 const THEN_NUMBER: [&str; 3] = ["HETATM", "CRYST1", "DBREF "];
 
 /// Formats that are known and not read, by what they may begin with.
-const OTHERS: [(&[&[u8]], &str); 8] = [
+const OTHERS: [(&[&[u8]], &str); 11] = [
     (&[b"PK\x03\x04"], "a zip archive, such as .npz: unpack it first"),
     (&[b"\x89HDF"], "HDF5, which is not read"),
     (&[b"CDF\x01", b"CDF\x02", b"CDF\x05"], "NetCDF, which is not read"),
@@ -36,6 +36,9 @@ const OTHERS: [(&[&[u8]], &str); 8] = [
     ),
     (&[b"7z\xbc\xaf"], "a 7z archive: unpack it first"),
     (&[b"\xfd7zXZ"], "xz, which is not read; .gz and .bz2 are"),
+    (&[b"\x28\xb5\x2f\xfd"], "zstd, which is not read; .gz and .bz2 are"),
+    (&[b"\x1f\x9d"], "a .Z file, which is not read; .gz and .bz2 are"),
+    (&[b"LASF"], "LAS, which is not read"),
     (&[b"\xff\xfe", b"\xfe\xff"], "UTF-16 text; save it as UTF-8"),
 ];
 
@@ -61,6 +64,9 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if first == b"ply" {
         return Ok(Format::Ply);
     }
+    if says_separator(first) {
+        return Ok(Format::Csv);
+    }
     if first.starts_with(b"ITEM: ") {
         return Ok(Format::LammpsDump);
     }
@@ -74,7 +80,7 @@ pub(in super::super) fn recognise(head: &[u8]) -> Result<Format, &'static str> {
     if !is_header && is_gro(&lines) {
         return Ok(Format::Gro);
     }
-    if first.starts_with(b"<") {
+    if head.trim_ascii_start().starts_with(b"<") {
         let is_robot = memchr::memmem::find(head, b"<robot").is_some();
         return if is_robot { Ok(Format::Urdf) } else { Err("XML, but no <robot>") };
     }

@@ -3,20 +3,23 @@
 //! A header names `x`, `y`, `z`, and perhaps `radius`, `diameter` or `r` alone, `r`, `g`, `b` or `red`, `green`, `blue`, and
 //! `element` or `type`; other columns of numbers can be chosen for colours. A unit in brackets may follow a name, as in
 //! `x (mm)`. Each row has as many values as the header has names, or is refused: a column that is not named would shift the
-//! others. Without a header the first three columns are positions, and a fourth is the radius. `--columns` chooses others,
-//! by names or by numbers from 1. Lines that begin with `#` or `%` are passed over, and with `//` unless a header begins otherwise or,
-//! without one, the rows begin with labels; except that one before the rows may be the header, below which the number of rows may stand.
+//! others. Without a header, and below one of numbers from 0, the first three columns are positions, and a fourth is the radius.
+//! `--columns` chooses others, by names or by numbers from 1. Lines that begin with `#` or `%` are passed over, and with `//` unless
+//! a header begins otherwise or, without one, the rows begin with labels; except that one before the rows may be the header, below
+//! which the number of rows may stand. That may also stand above all rows, and Excel's `sep=;` in the first line.
 
 mod columns;
 mod first_line;
+mod numbered;
 mod separator;
 
 use super::Context;
+use super::channels::srgb;
 use super::words::{Word, count};
-use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::scene::attributes::NumberColumn;
 use crate::scene::input::{Input, Line};
+use crate::scene::notes::Notes;
 use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
@@ -28,7 +31,8 @@ pub(super) use columns::has_axes;
 use columns::{Columns, is_by_number, is_header};
 use first_line::FirstLine;
 pub(super) use first_line::comment;
-pub(super) use separator::Separator;
+use numbered::{has_fractions_below, is_numbered};
+pub(super) use separator::{Separator, says_separator};
 use separator::{comment_signs, number_before_comment};
 
 /// Reads the table.
@@ -38,7 +42,7 @@ use separator::{comment_signs, number_before_comment};
 /// names, and if there is no line.
 pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, ReadError> {
     let Layout { separator, columns, header, width, has_slashes } =
-        layout(input, context.columns.as_deref())?;
+        layout(input, context.columns.as_deref(), &mut context.notes)?;
     context.notes.further_columns(columns.further);
     let kept = columns.kept.iter().map(|(_, name)| NumberColumn::named(name.clone()));
     let symbols = if columns.may_number_kinds { Symbols::Numbers } else { Symbols::Elements };
@@ -73,11 +77,7 @@ pub(super) fn read(input: &mut Input, context: &mut Context) -> Result<Scene, Re
         let what = "has not as many values as the first row: all rows are read as spheres";
         context.notes.note(format!("line {line} {what}"));
     }
-    // Colours go from 0 to 1, unless one is larger: then they go to 255.
-    let most = colors.iter().flatten().copied().fold(0.0, f32::max);
-    let scale = if most > 1.0 { 1.0 } else { 255.0 };
-    let channel = |share: f32| (scale * share).round().clamp(0.0, 255.0) as u8;
-    particles.colors = colors.iter().map(|color| Srgb(color.map(channel))).collect();
+    particles.colors = srgb(&colors);
     particles.finish(&mut context.notes, input.source())
 }
 
@@ -103,16 +103,27 @@ struct Header {
 }
 
 /// Reads up to the first row, which is next then.
-fn layout(input: &mut Input, chosen: Option<&str>) -> Result<Layout, ReadError> {
-    let mut is_below_slashes = false;
+fn layout(input: &mut Input, chosen: Option<&str>, notes: &mut Notes) -> Result<Layout, ReadError> {
+    let (mut is_below_slashes, mut has_count) = (false, false);
     let (first, is_header) = loop {
         let Some(line) = input.line()? else { return Err(no_row(input)) };
-        if line.trimmed().is_empty() {
+        let text = line.trimmed();
+        if text.is_empty() || line.number == 1 && says_separator(text) {
+            continue;
+        }
+        if !has_count && count(text).is_some() {
+            has_count = true;
             continue;
         }
         let first = FirstLine::of(&line);
         let names = first.names();
-        let is_header = is_header(&names, chosen);
+        let mut is_header = is_header(&names, chosen);
+        let may_be_header = !is_header && !first.is_comment && is_numbered(&names);
+        if may_be_header && has_fractions_below(input, &first)? {
+            let what = "has the numbers of columns from 0: it is read as a header";
+            notes.note(format!("line {} {what}", first.number));
+            is_header = true;
+        }
         if !first.is_comment || is_header && has_axes(&names) {
             break (first, is_header);
         }
@@ -132,6 +143,7 @@ fn layout(input: &mut Input, chosen: Option<&str>) -> Result<Layout, ReadError> 
     let has_slashes = has_slashes || is_header && first.has_slashes;
     if !is_header && chosen.is_none() {
         first.end_at_comment();
+        first.end_at_value();
     }
     let names = first.names();
     let columns = Columns::new(&names, is_header, chosen)

@@ -3,6 +3,7 @@
 mod arriving;
 mod bad;
 mod films;
+mod first_lines;
 mod frames;
 mod good;
 mod lammps;

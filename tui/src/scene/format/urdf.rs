@@ -105,8 +105,10 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
             }
         }
         if !particles.is_empty() {
-            if others > 0 {
-                notes.note(format!("{others} shapes that are no spheres are ignored"));
+            match others {
+                0 => {}
+                1 => notes.note("1 shape that is no sphere is ignored"),
+                _ => notes.note(format!("{others} shapes that are no spheres are ignored")),
             }
             return particles.finish(notes, source);
         }

@@ -8,7 +8,7 @@ use crate::scene::elements::element;
 use crate::scene::symbols::{of_atom_name, of_ion};
 
 /// The residues of proteins, of other protonations too, and of nucleic acids: all of H, C, N, O, P and S.
-const OF_POLYMERS: [&[u8]; 47] = [
+pub(super) const OF_POLYMERS: [&[u8]; 47] = [
     b"ALA", b"ARG", b"ASN", b"ASP", b"CYS", b"GLN", b"GLU", b"GLY", b"HIS", b"ILE", b"LEU", b"LYS",
     b"MET", b"PHE", b"PRO", b"SER", b"THR", b"TRP", b"TYR", b"VAL", b"ASH", b"CYM", b"CYX", b"GLH",
     b"HID", b"HIE", b"HIP", b"HSD", b"HSE", b"HSP", b"LYN", b"A", b"C", b"G", b"I", b"U", b"DA",

@@ -1,5 +1,6 @@
 //! Which column is what: by a header, by `--columns`, or by their number.
 
+use super::numbered::is_numbered;
 use super::separator::number_before_comment;
 use crate::scene::format::words::excerpt;
 use crate::scene::number::number;
@@ -100,7 +101,7 @@ impl Columns {
                 columns.position = [x, y, z];
                 columns.radius = numbers.get(3).copied();
             }
-            None if is_header => {
+            None if is_header && !is_numbered(names) => {
                 let axis = |axis: &str| {
                     let names = ["", "pos_", "p", "coord_"].map(|before| format!("{before}{axis}"));
                     named(&names.each_ref().map(String::as_str))
@@ -136,8 +137,10 @@ impl Columns {
                 return Err(format!("{} columns; positions are three", names.len()));
             }
             None => {
-                columns.position = [0, 1, 2];
-                columns.radius = (names.len() == 4).then_some(3);
+                // Behind an index, which has no name.
+                let first = usize::from(is_header && names[0].is_empty());
+                columns.position = [first, first + 1, first + 2];
+                columns.radius = (names.len() == first + 4).then_some(first + 3);
             }
         }
         let channels = |set: [&str; 3]| {

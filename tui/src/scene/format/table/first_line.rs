@@ -74,6 +74,12 @@ impl FirstLine {
         self.fields.truncate(end.unwrap_or(self.fields.len()));
     }
 
+    /// Leaves out what is empty behind the values of a row: it may end in separators.
+    pub(super) fn end_at_value(&mut self) {
+        let end = self.fields.iter().rposition(|field| !field.is_empty());
+        self.fields.truncate(end.map_or(0, |last| last + 1));
+    }
+
     /// Makes the names of a header those of the fields of `row`, the first below it; `false` if it is not known how.
     pub(super) fn fit(&mut self, row: &Line<'_>) -> bool {
         let (count, mut fields) = (self.fields.len(), Vec::new());

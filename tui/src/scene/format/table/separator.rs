@@ -14,6 +14,14 @@ pub(super) fn comment_signs(text: &[u8]) -> usize {
     text.iter().take_while(|byte| is_sign(byte)).count()
 }
 
+/// Whether a line tells Excel what separates columns: `sep=;`, where white space may have been trimmed away.
+pub(in crate::scene::format) fn says_separator(line: &[u8]) -> bool {
+    let quoted = line.strip_prefix(b"\"").and_then(|text| text.strip_suffix(b"\""));
+    let Some((name, separator)) = quoted.unwrap_or(line).split_at_checked(4) else { return false };
+    name.eq_ignore_ascii_case(b"sep=")
+        && (separator.is_empty() || matches!(separator, [byte] if !byte.is_ascii_alphanumeric()))
+}
+
 /// The number in a field of `line` that a comment follows, behind white space; `None` of any other field. (A label may have such a
 /// sign, and so may whatever is in quotes.)
 #[cold]
@@ -37,7 +45,15 @@ pub(in crate::scene::format) enum Separator {
 impl Separator {
     /// The separator that is in a line.
     pub(in crate::scene::format) fn of(line: &[u8]) -> Self {
-        let has = |byte: &u8| line.contains(byte);
+        let has = |byte: &u8| match byte {
+            // One among spaces is a space: positions are three.
+            b'\t' => {
+                let mut fields = Vec::new();
+                Self::Byte(b'\t').split(line, 3, &mut fields);
+                fields.len() == 3
+            }
+            _ => line.contains(byte),
+        };
         [b'\t', b',', b';'].into_iter().find(has).map_or(Self::Space, Self::Byte)
     }
 

@@ -93,7 +93,7 @@ fn properties_that_lie() {
         ("species:S:1:pos:R", "H 0 0 0", "not name:type:columns"),
         ("species:S:one:pos:R:3", "H 0 0 0", "no name:type:columns"),
         ("species:Q:1:pos:R:3", "H 0 0 0", "no name:type:columns"),
-        ("pos:R:3:pos:R:3", "0 0 0 0 0 0", "second column"),
+        ("pos:R:3:position:R:3", "0 0 0 0 0 0", "\"position\" names a second position"),
         ("species:S:1:pos:R:3:q:R:1", "H 0 0 0", "f:3:8: q is missing"),
         ("species:S:1:pos:R:3", "H 0 0 0 7", "f:3:9: more columns"),
         ("species:S:1:pos:R:3:v:R:99999999999", "H 0 0 0", "no name:type:columns"),
@@ -198,6 +198,8 @@ fn arrays_that_lie() {
     wrong(npy("<i4", "False", "(1, 4)", &[0; 16]), "float32 or float64");
     wrong(npy("<f4", "False", "(1, 5)", &[0; 20]), "(N, 3) or (N, 4)");
     wrong(npy("<f4", "False", "(4,)", &[0; 16]), "two dimensions");
+    let of_python_2 = error(npy("<f4", "False", "(1L, 4L)", &[0; 16]));
+    assert_eq!(of_python_2, "f: a header that is no Python 3 dictionary");
     let minus_one = [0.0_f32, 0.0, 0.0, -1.0].map(f32::to_le_bytes).concat();
     wrong(npy("<f4", "False", "(1, 4)", &minus_one), "radius");
     // The parser would take a time that grows as a power of the depth.

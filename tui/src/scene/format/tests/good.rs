@@ -41,6 +41,8 @@ fn tables_by_header_and_without() {
     let colored = good("x,y,z,r,g,b,v\n0,0,0,255,0,128,9\n1,0,0,0,255,0,8\n");
     assert_eq!(colored.colors(), [Srgb([255, 0, 128]), Srgb([0, 255, 0])]);
     assert_eq!(numbers(&colored, "v"), Some(vec![9.0, 8.0]));
+    let of_16_bits = good("X,Y,Z,Red,Green,Blue\n0,0,0,65535,0,32896\n1,0,0,257,65535,0\n");
+    assert_eq!(of_16_bits.colors(), [Srgb([255, 0, 128]), Srgb([1, 255, 0])]);
     for columns in ["b,c,d,a", "2,3,4,1"] {
         let scene = by(None, columns, "a,b,c,d\n0.5,1,2,3\n0.25,4,5,6\n");
         assert_eq!(spheres(&scene), expected, "{columns}");
@@ -104,6 +106,20 @@ fn diffuse_colours_of_ply_are_colours() {
         {channels}end_header\n1 2 3 255 0 128\n"
     ));
     assert_eq!(scene.colors(), [Srgb([255, 0, 128])]);
+}
+
+/// From 0 to 1, or as they were in bytes.
+#[test]
+fn ply_colours_that_are_no_integers() {
+    for (kind, color) in [("float", "1 0 0.5"), ("float", "255 0 128"), ("double", "255 0 127.5")] {
+        let channels =
+            ["red", "green", "blue"].map(|name| format!("property {kind} {name}\n")).concat();
+        let scene = good(format!(
+            "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n\
+            {channels}end_header\n1 2 3 {color}\n3 2 3 0 0 0\n"
+        ));
+        assert_eq!(scene.colors(), [Srgb([255, 0, 128]), Srgb([0; 3])], "{kind} {color}");
+    }
 }
 
 /// However many a header claims.

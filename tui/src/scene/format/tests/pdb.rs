@@ -44,6 +44,46 @@ fn pdb_atoms_without_a_symbol() {
     assert_eq!(good(rows.concat()).attributes().elements, Some(elements));
 }
 
+/// As gemmi writes more than 62 chains: in columns 21 and 22. Names of four letters end in column 21, too.
+#[test]
+fn pdb_chains_of_two_letters() {
+    let labels = |atoms: &[(&str, &str)]| -> Vec<String> {
+        let row = |(residue, chain): &(&str, &str)| {
+            format!(
+                "ATOM      1  CA  {residue}{chain}   1       3.000   0.000   0.000  1.00 20.00           C\n"
+            )
+        };
+        let scene = good(atoms.iter().map(row).collect::<String>());
+        (0..atoms.len()).filter_map(|atom| Some(scene.label(atom)?.into_owned())).collect()
+    };
+    let long = [
+        ("ALA", " A"),
+        ("ALA", "AA"),
+        ("HIS", "BA"),
+        ("  A", "AB"),
+        (" MG", "AB"),
+        ("HOH", "AB"),
+        ("SOL", " B"),
+    ];
+    let expected = [
+        "CA ALA 1 A",
+        "CA ALA 1 AA",
+        "CA HIS 1 BA",
+        "CA A 1 AB",
+        "CA MG 1 AB",
+        "CA HOH 1 AB",
+        "CA SOL 1 B",
+    ];
+    assert_eq!(labels(&long), expected);
+    for (chain, expected) in [("CA", "CA ALA 1 CA"), ("1B", "CA ALA 1 1B")] {
+        assert_eq!(labels(&[("ALA", chain)]), [expected]);
+    }
+    // As GROMACS and CHARMM write residues.
+    let short = [("ALA", " A"), ("CYS", "HA"), ("LYS", "HA"), ("HIS", "BA"), ("TIP", "3B")];
+    let expected = ["CA ALA 1 A", "CA CYSH 1 A", "CA LYSH 1 A", "CA HISB 1 A", "CA TIP3 1 B"];
+    assert_eq!(labels(&short), expected);
+}
+
 /// An atom without a symbol in columns 77 and 78.
 fn atom(name: &str, residue: &str) -> String {
     format!(

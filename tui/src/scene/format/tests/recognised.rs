@@ -8,11 +8,16 @@ fn refused(name: &str, bytes: impl AsRef<[u8]>, reading: &Reading) -> String {
 /// A name says what unknown content is, but not what known content is not.
 #[test]
 fn content_that_is_known_is_not_read_as_its_name_says() {
-    let files: [(&str, &[u8], &str); 9] = [
+    let files: [(&str, &[u8], &str); 14] = [
         ("sheet.csv", b"PK\x03\x04............", "a zip archive"),
         ("page.pdb", b"<!DOCTYPE html>\n<html></html>\n", "no <robot>"),
         ("powershell.csv", b"\xff\xfex\0,\0y\0,\0z\0\n\0", "UTF-16 text; save it as UTF-8"),
         ("excel.csv", b"\xfe\xff\0x\0,\0y\0,\0z\0\n", "UTF-16 text; save it as UTF-8"),
+        ("blank.pdb", b"\n  \n<!DOCTYPE html>\n<html></html>\n", "no <robot>"),
+        ("zstd.xyz", b"\x28\xb5\x2f\xfd\x04\0", "zstd, which is not read; .gz and .bz2 are"),
+        ("compress.pdb", b"\x1f\x9d\x90\0", "a .Z file, which is not read; .gz and .bz2 are"),
+        ("points.csv", b"LASF\0\0\0\0", "LAS, which is not read"),
+        ("compressed.csv", b"LASF\x01\0\x11\0", "LAS, which is not read"),
         ("amber.xyz", b"CDF\x01....", "NetCDF"),
         ("little.xtc", b"\x54\0\0\0CORD....", "a DCD trajectory"),
         ("big.xtc", b"\0\0\0\x54CORD....", "a DCD trajectory"),

@@ -18,6 +18,17 @@ fn chain(joints: usize) -> String {
 }
 
 #[test]
+fn shapes_that_are_no_spheres_are_said() {
+    let others = |count: usize| {
+        let boxes = "<collision><geometry><box size='1 1 1'/></geometry></collision>".repeat(count);
+        notes("shapes.urdf", &format!("\n<robot><link name='l'>{SPHERE}{boxes}</link></robot>"))
+    };
+    assert!(others(0).is_empty());
+    assert_eq!(others(1), ["1 shape that is no sphere is ignored"]);
+    assert_eq!(others(2), ["2 shapes that are no spheres are ignored"]);
+}
+
+#[test]
 fn many_attributes_and_namespaces() {
     let attributes: String = (0..600_000).map(|index| format!(" a{index}=''")).collect();
     let names: String = (0..65).map(|index| format!("<link xmlns:a{index}='u'/>")).collect();

@@ -91,6 +91,16 @@ fn a_diameter_is_twice_the_radius_which_wins() {
 }
 
 #[test]
+fn what_is_told_twice_is_ignored_but_once() {
+    let text = "1\nProperties=pos:R:3:residue:S:1:residuenames:S:1:radius:R:1:radii:R:1:name:S:1\n\
+        1 2 3 ALA GLY 0.5 9 CA\n";
+    let scene = good(text);
+    assert_eq!(spheres(&scene), [[1.0, 2.0, 3.0, 0.5]]);
+    assert_eq!(scene.label(0).as_deref(), Some("CA ALA"));
+    assert_eq!(notes("twice.xyz", text), ["2 columns are ignored (residuenames, radii)"]);
+}
+
+#[test]
 fn truths_are_told_in_any_case() {
     let words = ["T", "true", "True", "TRUE", "t", "F", "false", "False", "FALSE", "f"];
     let atoms: String = words.iter().map(|word| format!("C 0 0 0 {word}\n")).collect();

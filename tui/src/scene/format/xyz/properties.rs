@@ -54,8 +54,8 @@ impl Property<'_> {
 /// The properties, if the comment states any.
 ///
 /// # Errors
-/// [`ReadError`] if they are not valid: not in threes, of an unknown type, without three columns for positions, or the
-/// same twice.
+/// [`ReadError`] if they are not valid: not in threes, of an unknown type, without three columns for positions, or with
+/// positions twice.
 pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property<'static>>>, ReadError> {
     let text = comment.bytes;
     let lower = text.to_ascii_lowercase();
@@ -85,15 +85,18 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property<'stat
                 excerpt(&triple.join(&b':'))
             ));
         };
-        let kind = kind(&name.to_ascii_lowercase(), triple[1][0], columns);
+        let mut kind = kind(&name.to_ascii_lowercase(), triple[1][0], columns);
         if kind == Kind::Position && columns != 3 {
             return wrong(format!("Properties: {name} has {columns} columns; positions have 3"));
         }
         if !matches!(kind, Kind::Species | Kind::Number | Kind::Other) {
-            if found.contains(&kind) {
-                return wrong(format!("Properties: {name:?} names a second column for the same"));
+            match (found.contains(&kind), kind) {
+                (false, _) => found.push(kind),
+                (true, Kind::Position) => {
+                    return wrong(format!("Properties: {name:?} names a second position"));
+                }
+                (true, _) => kind = Kind::Other,
             }
-            found.push(kind);
         }
         let is_integer = triple[1] == b"I";
         all.push(Property { name, kind, columns, properties: 1, is_integer });

@@ -9,8 +9,10 @@ use std::io::{self, BufRead, BufReader, Chain, Cursor, Read};
 /// Bytes of the file that are read at once.
 const BLOCK: usize = 32 << 10;
 
-/// How many bytes tell what follows a member: none begins with 0.
+/// How many bytes tell what follows a member, ...
 const HEAD: u64 = 1;
+/// ... and how each begins.
+const FIRST: u8 = 0x1f;
 
 /// A member, behind the bytes that told it.
 type Member<R> = GzDecoder<Chain<Cursor<Vec<u8>>, BufReader<R>>>;
@@ -41,10 +43,14 @@ impl<R: Read> Read for Members<R> {
             }
             let mut head = Vec::new();
             member.get_mut().take(HEAD).read_to_end(&mut head)?;
-            if head.iter().all(|&byte| byte == 0) {
-                pass_padding(member.get_mut())?;
-                self.member = None;
-                return Ok(0);
+            match head.first() {
+                None | Some(0) => {
+                    pass_padding(member.get_mut())?;
+                    self.member = None;
+                    return Ok(0);
+                }
+                Some(&FIRST) => {}
+                Some(_) => return Err(damage("other bytes behind its end")),
             }
             self.member = self.member.take().map(|ended| {
                 let (_, rest) = ended.into_inner().into_inner();
@@ -59,11 +65,14 @@ impl<R: Read> Read for Members<R> {
 fn pass_padding(rest: &mut impl BufRead) -> io::Result<()> {
     for byte in rest.bytes() {
         if byte? != 0 {
-            let what = "other bytes behind the zeros at its end";
-            return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+            return Err(damage("other bytes behind the zeros at its end"));
         }
     }
     Ok(())
+}
+
+fn damage(what: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidInput, what)
 }
 
 #[cfg(test)]
@@ -126,7 +135,11 @@ mod tests {
         let sum = wrong.len() - 8;
         wrong[sum] ^= 1;
         assert_eq!(kind(&[&*one, &wrong].concat()), io::ErrorKind::InvalidInput);
-        assert_eq!(kind(&[&one, b"other bytes".as_slice()].concat()), io::ErrorKind::InvalidInput);
+        for behind in ["junk", "other bytes, more than a header"] {
+            let error = unpacked(&[&one, behind.as_bytes()].concat()).expect_err("other bytes");
+            assert_eq!(error.kind(), io::ErrorKind::InvalidInput, "{behind}");
+            assert_eq!(error.to_string(), "other bytes behind its end");
+        }
     }
 
     #[test]
