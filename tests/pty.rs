@@ -195,6 +195,24 @@ fn e_shows_the_errors_and_the_picture_again() {
     viewer.quit();
 }
 
+/// Its colours mean something else than those of the picture.
+#[test]
+fn a_map_of_errors_is_without_the_legend_of_the_picture() {
+    let arguments =
+        [&["caffeine", "--color-by", "element", "--legend"], OPTIONS.as_slice()].concat();
+    let mut session = Session::start(&arguments, &[], (COLUMNS, ROWS));
+    let has_legend = |output: &Output| row_text(output, 0).contains(" element");
+    session.wait_until("it", |output| output.shows_a_frame() && has_legend(output));
+    session.type_in("e");
+    session.wait_until("the map alone", |output| {
+        let is_map = output.contents().contains(" exact: all right");
+        output.shows_a_frame() && is_map && !has_legend(output)
+    });
+    session.type_in("e");
+    session.wait_until("it again", |output| output.shows_a_frame() && has_legend(output));
+    session.quit("q");
+}
+
 /// `v` cuts the picture in two. Keys, and a drag that begins on the seam, move the seam; any other drag orbits.
 #[test]
 fn v_shows_two_tiers_and_the_seam_moves() {

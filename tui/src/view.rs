@@ -55,7 +55,7 @@ const USEFUL: std::ops::Range<f32> = 1e-30..1e30;
 /// The largest angle, in radians, by which rounding may turn a view when the eye goes nearer: a twentieth of a degree. (With 1e-2 many steps
 /// turn it by several degrees.)
 const LARGEST_TURN: f32 = 1e-3;
-/// The field of view, in degrees, if changing the projection moves the eye.
+/// The field of view, in degrees, if changing the projection or the height of a parallel picture moves the eye.
 const USUAL_FOV: f32 = 40.0;
 
 impl View {
@@ -175,12 +175,19 @@ pub fn panned(view: &View, right: f64, up: f64) -> View {
     if eye.is_finite() && target.is_finite() { View { eye, target, ..*view } } else { *view }
 }
 
-/// Makes what is at the target appear `factor` times as large: by going nearer in perspective, by a lower picture in parallel. A factor
-/// that is not finite and above 0, or that would leave the range of useful numbers, changes nothing. Nor does one that leads nearer than
-/// a thousand times the distance of floats at the target.
+/// Makes what is at the target appear `factor` times as large: by going nearer in perspective, by a lower picture in parallel. Where
+/// a parallel picture becomes higher than what the eye would see under the usual angle, the eye goes farther, too: then no more of the
+/// scene is behind it than in perspective.
+///
+/// A factor that is not finite and above 0, or that would leave the range of useful numbers, changes nothing. Nor does one that leads
+/// nearer than a thousand times the distance of floats at the target.
 #[must_use]
 pub fn zoomed(view: &View, factor: f32) -> View {
-    let useful = |size: f32| factor > 0.0 && USEFUL.contains(&size);
+    let useful = |size: f32| {
+        // A scene may be so large or so small that its first view is out of the range.
+        let leads_back = if size < USEFUL.start { factor < 1.0 } else { factor > 1.0 };
+        factor > 0.0 && (USEFUL.contains(&size) || leads_back)
+    };
     match view.lens {
         Lens::Perspective { .. } => {
             let way = (view.eye - view.target) / factor;
@@ -191,7 +198,14 @@ pub fn zoomed(view: &View, factor: f32) -> View {
         }
         Lens::Parallel { height } => {
             let height = height / factor;
-            if useful(height) { View { lens: Lens::Parallel { height }, ..*view } } else { *view }
+            if !useful(height) {
+                return *view;
+            }
+            let (way, least) = (view.eye - view.target, usual_distance(height));
+            let is_too_near = factor < 1.0 && length(way) < least;
+            let outward = direction(way).unwrap_or(Vec3::Z);
+            let farther = is_too_near.then(|| eye_at(view.target, least * outward)).flatten();
+            View { eye: farther.unwrap_or(view.eye), lens: Lens::Parallel { height }, ..*view }
         }
     }
 }
@@ -212,13 +226,17 @@ pub fn with_projection(view: &View, kind: LensKind) -> View {
             if NATURAL_FOV.contains(&fov) {
                 return View { lens: Lens::Perspective { fov }, ..*view };
             }
-            let distance = height / 2.0 / (USUAL_FOV / 2.0).to_radians().tan();
             let outward = direction(way).unwrap_or(Vec3::Z);
             let lens = Lens::Perspective { fov: USUAL_FOV };
-            let eye = eye_at(view.target, distance * outward);
+            let eye = eye_at(view.target, usual_distance(height) * outward);
             eye.map_or(*view, |eye| View { eye, lens, ..*view })
         }
     }
+}
+
+/// How far away the eye is that sees a picture of this height at the target under the usual angle.
+fn usual_distance(height: f32) -> f32 {
+    height / 2.0 / (USUAL_FOV / 2.0).to_radians().tan()
 }
 
 /// The eye that is `way` from the target; `None` where floats are so far apart that it would look from elsewhere.

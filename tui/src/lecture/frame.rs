@@ -21,7 +21,7 @@ const HELP: [&str; 14] = [
     "  arrows            change the numbers of this one          ",
     "  r                 its first numbers again                 ",
     "  ?                 this                                    ",
-    "  Ctrl-Z            stop, fg goes on                        ",
+    "  Ctrl-Z, Ctrl-L    stop, fg goes on; draw anew             ",
     "  q, Esc, Ctrl-C    quit                                    ",
     "                                                            ",
     "  Every number is computed by the kernel when it is shown.  ",

@@ -23,7 +23,7 @@ enum Input {
     Quit,
     /// Give the terminal back and stop, until continued.
     Suspend,
-    /// The terminal has another size.
+    /// The terminal has another size, or all is to be drawn anew.
     Resize,
 }
 
@@ -200,6 +200,7 @@ mod tests {
         assert_eq!(key(KeyCode::PageDown, none), Some(Input::Next));
         assert_eq!(key(KeyCode::Char('b'), none), Some(Input::Back));
         assert_eq!(key(KeyCode::Char('c'), KeyModifiers::CONTROL), Some(Input::Quit));
+        assert_eq!(key(KeyCode::Char('l'), KeyModifiers::CONTROL), Some(Input::Resize));
         assert_eq!(key(KeyCode::Char('q'), KeyModifiers::CONTROL), None);
         assert_eq!(key(KeyCode::Char('x'), none), None);
     }

@@ -13,7 +13,7 @@ pub enum Wish<'a> {
     Quit,
     /// Ctrl-Z: to give the terminal back and stop, until continued.
     Suspend,
-    /// Another size, or one that must be read again.
+    /// Another size, or one that must be read again; Ctrl-L: to draw all anew.
     Resize,
 }
 
@@ -28,6 +28,7 @@ pub fn wish(event: &Event) -> Option<Wish<'_>> {
         Event::Key(key) if key.modifiers.contains(KeyModifiers::CONTROL) => match key.code {
             KeyCode::Char('c') => Some(Wish::Quit),
             KeyCode::Char('z') => Some(Wish::Suspend),
+            KeyCode::Char('l') => Some(Wish::Resize),
             _ => None,
         },
         Event::Key(key) => Some(Wish::Key(key.code)),

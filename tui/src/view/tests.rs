@@ -108,6 +108,35 @@ fn however_far_it_zooms_in_it_looks_from_the_same_side() {
     assert_eq!(with_projection(&low, LensKind::Perspective), low);
 }
 
+/// Else the picture would stay without what is in front of the eye when the scene was near.
+#[test]
+fn the_rays_of_a_parallel_picture_that_becomes_higher_start_farther_away() {
+    let lens = Lens::Parallel { height: 0.3 };
+    let low = View { eye: Vec3::new(0.0, 0.0, 0.4), lens, ..VIEW };
+    let high = (0..28).fold(low, |view, _| zoomed(&view, 1.0 / 1.1));
+    let height = high.height_at_target();
+    assert!((4.3..4.4).contains(&height), "{height}");
+    let distance = height / 2.0 / 20_f32.to_radians().tan();
+    assert!(near(high.eye, Vec3::Z * distance), "{high:?}");
+    assert_eq!(zoomed(&high, 100.0).eye, high.eye);
+    // An eye that is far enough stays.
+    let far = View { lens: Lens::Parallel { height: 3.0 }, ..VIEW };
+    assert_eq!(zoomed(&far, 0.9).eye, VIEW.eye);
+}
+
+/// Very large and very small scenes are first seen from there.
+#[test]
+fn from_outside_the_useful_numbers_the_way_back_is_open() {
+    for (size, back) in [(2e30, 1.1), (5e-31, 1.0 / 1.1)] {
+        for lens in [Lens::Perspective { fov: 40.0 }, Lens::Parallel { height: size }] {
+            let view = View { eye: Vec3::Z * size, lens, ..VIEW };
+            let ratio = zoomed(&view, back).height_at_target() / view.height_at_target();
+            assert!((ratio * back - 1.0).abs() < 1e-5, "{lens:?}: {ratio}");
+            assert_eq!(zoomed(&view, 1.0 / back), view, "farther out");
+        }
+    }
+}
+
 /// As high as the picture that the camera makes, also where the angle is nearly flat.
 #[test]
 fn the_height_at_the_target_is_the_cameras() {

@@ -10,6 +10,7 @@ use super::table::{Means, Subject};
 use super::{help, notice, picking, recording, status};
 use crate::cells::CellGrid;
 use crate::coloring::legend::Legend;
+use crate::compare::Comparison;
 use crate::encode::Economy;
 use crate::error::Error;
 use crate::pick::report;
@@ -123,7 +124,9 @@ impl Viewer {
         let mut cells = CellGrid::new(columns, rows);
         let drawn = &picture.drawn;
         cells.cells_mut()[..drawn.cells.cells().len()].copy_from_slice(drawn.cells.cells());
-        let legend = picture.legend.as_ref();
+        // Colours of a map of errors mean something else.
+        let is_map = picture.of.pictured.comparison == Some(Comparison::Errors);
+        let legend = picture.legend.as_ref().filter(|_| !is_map);
         self.write_over(&mut cells, status_row, legend, known.unwrap_or_default());
         if let Some(notice) = &self.notice {
             notice::write(&mut cells, status_row, notice);

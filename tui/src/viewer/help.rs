@@ -27,17 +27,20 @@ const LINES: [&str; 27] = [
     "  C, g                    what colours are by, what they mean ",
     "  a, E, d                 occlusion, edges, depth cue ",
     "  ?                       this            ",
-    "  Ctrl-Z                  stop, fg goes on",
+    "  Ctrl-Z, Ctrl-L          stop, fg goes on; draw anew ",
     "  q, Esc, Ctrl-C          quit            ",
     "                                         ",
 ];
 
-/// Writes the keys into the middle of the first `rows` rows, cut if there is no room.
+/// Writes the keys into the middle of the first `rows` rows: without the blank lines if they leave no room for all keys,
+/// and cut if there is none even so.
 pub(super) fn write(cells: &mut CellGrid, rows: u16) {
     let width = LINES.iter().map(|line| line.len()).max().unwrap_or(0);
     let left = usize::from(cells.columns()).saturating_sub(width) / 2;
-    let top = usize::from(rows).saturating_sub(LINES.len()) / 2;
-    for (row, line) in (top..usize::from(rows)).zip(LINES) {
+    let is_room = LINES.len() <= usize::from(rows);
+    let lines = LINES.iter().filter(|line| is_room || !line.trim().is_empty());
+    let top = usize::from(rows).saturating_sub(lines.clone().count()) / 2;
+    for (row, line) in (top..usize::from(rows)).zip(lines) {
         let (Ok(column), Ok(row)) = (u16::try_from(left), u16::try_from(row)) else { return };
         cells.write(column, row, &format!("{line:width$}"), Color::Default, Color::Default);
     }
@@ -60,6 +63,16 @@ mod tests {
             assert!(LINES.concat().contains(&format!(" {name}")), "{name}");
         }
         assert!(LINES.iter().all(|line| line.len() <= 80));
+    }
+
+    #[test]
+    fn every_key_is_on_a_screen_of_the_usual_size() {
+        let mut cells = CellGrid::new(80, 24);
+        write(&mut cells, 23);
+        let written = cells.lines().concat();
+        for line in LINES {
+            assert!(written.contains(line.trim()), "{line}");
+        }
     }
 
     #[test]

@@ -46,6 +46,10 @@ impl Viewer {
             let takes_notice = matches!(event, Event::Key(_)) && !self.owes_notice;
             if takes_notice && self.notice.take().is_some() {
                 outcome = outcome.and(Outcome::Changed);
+                // Of all that Escape closes, a word of the program is the first.
+                if keys::input(&event) == Some(keys::Input::Escape) {
+                    continue;
+                }
             }
             if self.panic_key && keys::is_panic(&event) {
                 panic!("asked for by {PANIC_SWITCH}");
@@ -58,7 +62,7 @@ impl Viewer {
                         outcome = outcome.and(Outcome::Changed);
                     }
                 }
-                // The terminal may have moved its cells about, even if the size is the same.
+                // The terminal may have moved its cells about, even if the size is the same; or others have written.
                 Some(keys::Input::Resize) => {
                     self.encoder.forget();
                     if self.flow.resized(Instant::now()) {

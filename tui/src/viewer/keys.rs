@@ -73,7 +73,7 @@ pub(super) enum Input {
     Quit,
     /// Give the terminal back and stop, until continued.
     Suspend,
-    /// Another size, or one that must be read again.
+    /// Another size, or one that must be read again; or to draw all anew.
     Resize,
 }
 
@@ -165,6 +165,7 @@ mod tests {
         assert_eq!(key(KeyCode::Char('c'), KeyModifiers::NONE), Some(Input::Charset));
         assert_eq!(key(KeyCode::Char('c'), KeyModifiers::CONTROL), Some(Input::Quit));
         assert_eq!(key(KeyCode::Char('z'), KeyModifiers::CONTROL), Some(Input::Suspend));
+        assert_eq!(key(KeyCode::Char('l'), KeyModifiers::CONTROL), Some(Input::Resize));
         assert_eq!(key(KeyCode::Char('q'), KeyModifiers::CONTROL), None);
     }
 

@@ -45,6 +45,9 @@ pub(super) fn parse(bytes: &[u8], more_may_come: bool) -> Parsed {
         // Not the end of that key: it is broken off, and another thing begins.
         [ESCAPE, b'O', 0..=0x1f, ..] => Parsed::Taken(2, None),
         [ESCAPE, b'O', last, ..] => Parsed::Taken(3, arrow(*last).map(user)),
+        [ESCAPE, sequence @ ..] if matches!(sequence, [ESCAPE, b'[' | b'O', ..]) => {
+            after_escape(sequence, more_may_come)
+        }
         // Whoever types Ctrl-C or Ctrl-Z after it means it.
         [ESCAPE, ESCAPE | CTRL_C | CTRL_Z, ..] => Parsed::Taken(1, Some(user(key(KeyCode::Esc)))),
         // A key with Alt.
@@ -56,6 +59,31 @@ pub(super) fn parse(bytes: &[u8], more_may_come: bool) -> Parsed {
             Parsed::Taken(bytes.len(), (bytes == [ESCAPE]).then(|| user(key(KeyCode::Esc))))
         }
         parsed => parsed,
+    }
+}
+
+/// What an escape and the `sequence` behind it are: some terminals send an arrow with Alt so, which is the arrow as it is elsewhere.
+/// Behind the key Escape come answers, the mouse, and letters by their codes: whoever types Ctrl-C means it.
+fn after_escape(sequence: &[u8], more_may_come: bool) -> Parsed {
+    match parse(sequence, more_may_come) {
+        Parsed::Taken(count, of) if is_named_key(&sequence[..count]) => {
+            Parsed::Taken(1 + count, of)
+        }
+        Parsed::Taken(..) => Parsed::Taken(1, Some(user(key(KeyCode::Esc)))),
+        Parsed::Unfinished => Parsed::Unfinished,
+    }
+}
+
+/// Whether a whole sequence is a key that is no letter: an arrow, one for pages, F1 and the like.
+fn is_named_key(sequence: &[u8]) -> bool {
+    match sequence {
+        [ESCAPE, b'O', last] => last.is_ascii_alphabetic(),
+        [ESCAPE, b'[', parameters @ .., last] => {
+            is_plain(parameters)
+                && matches!(last, b'A'..=b'H' | b'~')
+                && coded::of_27(parameters).is_none()
+        }
+        _ => false,
     }
 }
 
@@ -105,13 +133,11 @@ fn control_sequence(rest: &[u8]) -> Parsed {
         return if is_overlong { Parsed::Taken(2 + rest.len(), None) } else { Parsed::Unfinished };
     };
     let (parameters, last) = (&rest[..end], rest[end]);
-    // Behind a colon is more about the number before it.
-    let is_plain = parameters.iter().all(|byte| matches!(byte, b'0'..=b'9' | b';' | b':'));
     let of_user = match last {
         // Not a final byte: the sequence is broken off, and another thing begins.
         0..=0x1f => return Parsed::Taken(2 + end, None),
         b'M' | b'm' if parameters.first() == Some(&b'<') => mouse(&parameters[1..], last == b'm'),
-        _ if !is_plain || coded::is_let_go(parameters) => None,
+        _ if !is_plain(parameters) || coded::is_let_go(parameters) => None,
         b'u' => coded::of_u(parameters).and_then(of_byte),
         b'~' => page(parameters).or_else(|| coded::of_27(parameters).and_then(of_byte)),
         // Parameters of an arrow are modifiers.
@@ -119,6 +145,11 @@ fn control_sequence(rest: &[u8]) -> Parsed {
     };
     let of_terminal = || reply::of_sequence(parameters, last).map(Incoming::Reply);
     Parsed::Taken(2 + end + 1, of_user.map(user).or_else(of_terminal))
+}
+
+/// Whether parameters are numbers. Behind a colon is more about the number before it.
+fn is_plain(parameters: &[u8]) -> bool {
+    parameters.iter().all(|byte| matches!(byte, b'0'..=b'9' | b';' | b':'))
 }
 
 /// What follows `ESC [ M`: button, column and row in a byte each, with 32 added, from terminals that know no decimal

@@ -29,6 +29,12 @@ fn keys_are_told_whatever_follows_them() {
         ("\x1bOA", pressed(KeyCode::Up)),
         ("\x1b[5~", pressed(KeyCode::PageUp)),
         ("\x1b[6;2~", pressed(KeyCode::PageDown)),
+        // With Alt, where that is an escape before the key.
+        ("\x1b\x1b[A", pressed(KeyCode::Up)),
+        ("\x1b\x1bOC", pressed(KeyCode::Right)),
+        ("\x1b\x1b[6~", pressed(KeyCode::PageDown)),
+        ("\x1b\x1b[3~", None),
+        ("\x1b\x1bOP", None),
         // By their codes: some terminals send no other Ctrl-C, Ctrl-Z or Escape than these.
         ("\x1b[99;5u", Some(control('c'))),
         ("\x1b[27;5;99~", Some(control('c'))),
@@ -91,6 +97,22 @@ fn an_escape_is_a_key_when_nothing_follows() {
     assert_eq!(taken("\x1b\x1b"), (1, pressed(KeyCode::Esc)));
     for control in ["\x1b\x03", "\x1b\x1a"] {
         assert_eq!(taken(control), (1, pressed(KeyCode::Esc)), "{control:?}");
+    }
+}
+
+/// The beginning of an arrow with Alt is waited for; what is none leaves the key that was typed before it.
+#[test]
+fn an_escape_before_another_sequence_than_a_key_is_the_key() {
+    for begun in ["\x1b\x1b[", "\x1b\x1bO", "\x1b\x1b[1;"] {
+        assert_eq!(parse(begun.as_bytes(), true), Parsed::Unfinished, "{begun:?}");
+        let given_up = parse(begun.as_bytes(), false);
+        assert_eq!(given_up, Parsed::Taken(1, pressed(KeyCode::Esc)), "{begun:?}");
+    }
+    let letters = ["[99;5u", "[27;5;99~", "[\x03"];
+    let others = ["[0n", "]11;q\x07", "[<0;11;6M", "[M q~", "\x1b[A"];
+    for next in letters.into_iter().chain(others) {
+        let (count, key) = taken(&format!("\x1b\x1b{next}"));
+        assert_eq!((count, key), (1, pressed(KeyCode::Esc)), "{next:?}");
     }
 }
 
