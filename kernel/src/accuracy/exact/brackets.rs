@@ -2,6 +2,7 @@
 
 use super::estimate::Estimate;
 use crate::accuracy::roots::RayLanes;
+use crate::geometry::ray::Ray;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 
@@ -81,17 +82,12 @@ impl<L: Lanes> Brackets<L> {
         (t, near.known & (near.hit | far.known | limit.lt(near.t)))
     }
 
-    /// A number of a bracket, and the lanes in which a root is accepted whatever number of its bracket it rounds to.
-    #[inline(always)]
-    pub(super) fn surely_accepted(&self, rays: &RayLanes<L>) -> (L, L::Mask) {
-        let [near, far] = [self.near, self.far].map(
-            #[inline(always)]
-            |[low, high]| {
-                let (low, high) = (L::load(self.token, &low), L::load(self.token, &high));
-                (low, rays.accept(low) & rays.accept(high))
-            },
-        );
-        (L::select(near.1, near.0, far.0), near.1 | far.1)
+    /// A number of the bracket of a root that the ray in `lane` accepts whatever number of it the root rounds to.
+    pub(super) fn surely_accepted(&self, lane: usize, ray: &Ray) -> Option<f32> {
+        let accepts = |t: f32| ray.t_min <= t && t <= ray.t_max && t.is_finite();
+        let ends = |[low, high]: &[L::Array; 2]| [low.get(lane), high.get(lane)];
+        let surely = |ends: &[f32; 2]| ends.iter().all(|&t| accepts(t));
+        [&self.near, &self.far].map(ends).iter().find(|ends| surely(ends)).map(|[low, _]| *low)
     }
 
     /// A bracket past the limit counts as known: its root need not be known any better.
