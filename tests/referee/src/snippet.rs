@@ -43,9 +43,14 @@ pub fn sentence(failure: &Failure) -> String {
     );
     let answer = failure.answer.map_or_else(
         || "a miss".to_owned(),
-        |Answer { t, sphere }| format!("a hit at t = {t:?}{}", of(sphere)),
+        |Answer { t, sphere }| {
+            let hit = if t.is_finite() { "a hit at " } else { "" };
+            format!("{hit}t = {t:?}{}", of(sphere))
+        },
     );
-    let off = if failure.truth.is_some() && failure.answer.is_some() {
+    // (No number of ulp leads to what is no answer.)
+    let is_off = failure.truth.is_some() && failure.answer.is_some();
+    let off = if is_off && failure.severity.is_finite() {
         format!(", {} ulp away", failure.severity)
     } else {
         String::new()

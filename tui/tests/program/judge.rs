@@ -153,6 +153,8 @@ fn what_is_no_answer_is_counted() {
         let worst = &report["failures"][5]["worst"];
         assert_eq!((&worst["row"], &worst["answer"]["t"]), (&0.into(), &Value::Null), "{worst}");
     }
+    let text = prints(&files.judge("--pairs"));
+    assert!(text.contains("answered was t = NaN\n"), "{text}");
 }
 
 #[test]
