@@ -11,7 +11,8 @@ use crate::geometry::sphere::Spheres;
 use crate::lanes::Lanes;
 use crate::query::{AnyHit, ClosestHit};
 use crate::slices;
-use crate::structures::{Lend, Traverse};
+use crate::structures::Traverse;
+use crate::structures::lend::Lend;
 use crate::trace::Trace;
 
 /// Spheres that rays are intersected with: [`Spheres`](crate::Spheres) tests every ray against every sphere; a

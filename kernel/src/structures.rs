@@ -1,5 +1,6 @@
 //! The scene structures, by the traversals that they have.
 
+pub(crate) mod lend;
 #[cfg(feature = "alloc")]
 mod owned;
 mod tree;
@@ -23,45 +24,13 @@ use crate::lanes::Lanes;
 use crate::linear;
 use crate::query::{ClosestHit, Query};
 use crate::trace::Trace;
-use core::ops::Deref;
 #[cfg(feature = "std")]
 use core::ops::Range;
-
-/// A structure that is traced itself, or that lends the one that is.
-pub trait Lend {
-    /// The structure that is traced.
-    type Lent<'a>: Traverse
-    where
-        Self: 'a;
-
-    /// Lends it.
-    fn lend(&self) -> impl Deref<Target = Self::Lent<'_>>;
-
-    /// The list of its spheres.
-    fn list(&self) -> Spheres<'_>;
-}
-
-impl<S: Traverse> Lend for S {
-    type Lent<'a>
-        = S
-    where
-        S: 'a;
-
-    #[inline(always)]
-    fn lend(&self) -> impl Deref<Target = Self::Lent<'_>> {
-        self
-    }
-
-    #[inline(always)]
-    fn list(&self) -> Spheres<'_> {
-        self.of_list()
-    }
-}
 
 /// The traversals of a structure.
 pub trait Traverse {
     /// The list that hits name spheres of.
-    fn of_list(&self) -> Spheres<'_>;
+    fn list(&self) -> Spheres<'_>;
 
     /// Whether some rays of a call go one by one, since they are few, and are faster so than together.
     #[cfg(feature = "std")]
@@ -250,7 +219,7 @@ macro_rules! traverse {
     ($structure:ty, |$this:ident, $trace:ident| $list:expr, $traverse:path = $compiled:ident($($argument:expr),*)) => {
         impl Traverse for $structure {
             #[inline(always)]
-            fn of_list(&self) -> Spheres<'_> {
+            fn list(&self) -> Spheres<'_> {
                 let $this = self;
                 $list
             }
@@ -297,7 +266,7 @@ traverse!(
 /// It answers in one lane, whatever the level.
 impl Traverse for Bvh4<'_> {
     #[inline(always)]
-    fn of_list(&self) -> Spheres<'_> {
+    fn list(&self) -> Spheres<'_> {
         self.spheres()
     }
 

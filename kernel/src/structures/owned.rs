@@ -1,6 +1,6 @@
 //! Structures that own their memory lend the structure that is traced.
 
-use super::Lend;
+use super::lend::Lend;
 use crate::bvh::owned::SphereTree;
 use crate::bvh::tree::Bvh;
 use crate::geometry::sphere::Spheres;

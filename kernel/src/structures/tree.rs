@@ -38,7 +38,7 @@ use core::ops::Range;
 
 impl Traverse for Bvh<'_> {
     #[inline(always)]
-    fn of_list(&self) -> Spheres<'_> {
+    fn list(&self) -> Spheres<'_> {
         self.spheres()
     }
 
