@@ -8,6 +8,7 @@ pub(crate) mod many_answers;
 #[cfg(feature = "alloc")]
 pub(crate) mod moved_spheres;
 pub(crate) mod ray;
+pub(crate) mod ray_packet;
 pub(crate) mod sphere;
 pub(crate) mod sphere_columns;
 #[cfg(feature = "alloc")]

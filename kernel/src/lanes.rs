@@ -122,16 +122,12 @@ pub trait Lanes:
     /// Bit `i` from bit `order >> 4 i & 15` of sixteen.
     #[inline(always)]
     fn bits_in_order(_: Self::Token, bits: u32, order: u64) -> u32 {
-        let mut ordered = 0;
-        for place in 0..16 {
-            ordered |= (bits >> (order >> (4 * place) & 15) & 1) << place;
-        }
-        ordered
+        ordered(bits, order)
     }
-    /// The bits of `self <= other`, the first lane at bit `first`, [in the order `order`](Lanes::bits_in_order).
+    /// The bits of `self <= other`, the first lane at bit `first`, modulo 32, [in the order `order`](Lanes::bits_in_order).
     #[inline(always)]
     fn le_in_order(self, other: Self, first: usize, order: u64) -> u32 {
-        Self::bits_in_order(self.token(), self.le(other).bits() << first, order)
+        Self::bits_in_order(self.token(), self.le(other).bits() << (first % 32), order)
     }
     /// The largest lane; any lane where one is NaN: for filters.
     #[inline(always)]
@@ -234,6 +230,16 @@ fn compressed<const N: usize>(numbers: [f32; N], mut bits: u32) -> [f32; N] {
         bits &= bits - 1;
     }
     kept
+}
+
+/// [`Lanes::bits_in_order`] where no instruction does it.
+#[inline(always)]
+fn ordered(bits: u32, order: u64) -> u32 {
+    let mut ordered = 0;
+    for place in 0..16 {
+        ordered |= (bits >> (order >> (4 * place) & 15) & 1) << place;
+    }
+    ordered
 }
 
 /// A call that is not inlined: [`Lanes::out_of_line`] where the instruction set is fixed.

@@ -52,7 +52,10 @@ pub use geometry::camera::tiles::CameraTiles;
 pub use geometry::camera::{Camera, Projection};
 pub use geometry::columns::{HitColumns, RayColumns};
 pub use geometry::hit::{Hit, HitPacket};
-pub use geometry::ray::{Ray, RayPacket};
+#[cfg(feature = "alloc")]
+pub use geometry::moved_spheres::MovedSpheres;
+pub use geometry::ray::Ray;
+pub use geometry::ray_packet::RayPacket;
 pub use geometry::sphere::{Sphere, SpherePacket, Spheres, SpheresError};
 #[cfg(feature = "alloc")]
 pub use geometry::sphere_list::SphereList;

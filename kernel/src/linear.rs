@@ -12,7 +12,7 @@ use crate::count::count;
 use crate::filter::block::{FilterBlock, FilterGroup};
 use crate::filter::rays::FilterRays;
 use crate::filter::{BLOCK_SPHERES, GROUP};
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::{LaneMask, Lanes};

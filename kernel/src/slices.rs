@@ -13,7 +13,7 @@ use crate::Accuracy;
 use crate::coherent::ray_order::MOST;
 use crate::geometry::many::ManyRays;
 use crate::geometry::many_answers::ManyAnswers;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 use window::PACKETS;

@@ -8,7 +8,7 @@ use crate::accuracy::Exact;
 use crate::accuracy::{TierFormula, TierWork};
 use crate::filter::GROUP;
 use crate::filter::block::FilterBlock;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::Spheres;
 use crate::lanes::{LaneMask, Lanes};
 use crate::linear::{Candidates, GroupTest, for_candidates};

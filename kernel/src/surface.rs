@@ -2,7 +2,8 @@
 
 use crate::accuracy::{Accuracy, RayLanes, TierFormula, TierWork};
 use crate::geometry::hit::HitPacket;
-use crate::geometry::ray::{Ray, RayPacket};
+use crate::geometry::ray::Ray;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::geometry::surface::{Surface, SurfacePacket};
 use crate::lanes::{LaneArray, LaneMask, Lanes};

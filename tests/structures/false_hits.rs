@@ -21,6 +21,7 @@ fn false_hits_alone_are_lost() {
     for tier in [Tier::Fast, Tier::Geometric] {
         let lost = false_hits_lost(tier, &spheres, &rays, viewpoint_of(&rays));
         println!("{tier:?}: {lost} false hits lost");
+        assert!(lost > 0, "{tier:?}: no false hits");
     }
 }
 

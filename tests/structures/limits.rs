@@ -98,9 +98,9 @@ fn too_little_memory_for_a_stream() {
     assert_eq!(StreamMemory::queues_needed(1 << 24), (1 << 24) + 256);
     let (mut rays, mut queues) = ([StreamRay::EMPTY; 16], [QueuedRay::EMPTY; 272]);
     let error = StreamMemory::new(&mut rays[..15], &mut queues).expect_err("no packet has room");
-    assert_eq!(error, TooSmall { needed: 16, given: 15 });
+    assert_eq!(error, TooSmall { what: "rays", needed: 16, given: 15 });
     let error = StreamMemory::new(&mut rays, &mut queues[..271]).expect_err("a level has no room");
-    assert_eq!(error, TooSmall { needed: 272, given: 271 });
+    assert_eq!(error, TooSmall { what: "queues", needed: 272, given: 271 });
     assert!(StreamMemory::new(&mut rays, &mut queues).is_ok());
 }
 
@@ -114,7 +114,7 @@ fn too_little_memory_for_a_depth_list() {
         for words in [0, needed / 2, needed - 1] {
             let error = DepthList::sort(list.spheres(), viewpoint, &mut memory[..words])
                 .expect_err("less than needed");
-            assert_eq!((error.needed, error.given), (needed, words));
+            assert_eq!(error, TooSmall { what: "numbers", needed, given: words });
             assert!(error.to_string().contains(&needed.to_string()), "{error}");
         }
         assert!(DepthList::sort(list.spheres(), viewpoint, &mut memory).is_ok());

@@ -73,7 +73,7 @@ fn too_little_memory() {
         let mut words = vec![0; needed];
         for given in [0, needed / 2, needed - 1] {
             let error = Bvh4::build(list.spheres(), &mut words[..given]).expect_err("too little");
-            assert_eq!(error, TooSmall { needed, given });
+            assert_eq!(error, TooSmall { what: "words", needed, given });
         }
         assert!(Bvh4::build(list.spheres(), &mut words).is_ok());
     }

@@ -186,7 +186,7 @@ struct Unsettled<L: Lanes> {
     t_max: L::Array,
     center: [L::Array; 3],
     radius: L::Array,
-    /// If any hit will do.
+    /// The brackets of the roots, if any hit will do.
     brackets: Option<Brackets<L>>,
 }
 

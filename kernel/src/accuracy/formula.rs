@@ -3,7 +3,7 @@
 use super::roots::RayLanes;
 use super::surface::{self, SurfaceLanes};
 #[cfg(feature = "std")]
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::surface::Surface;
 use crate::unknown_name::UnknownName;
 use crate::{Lanes, Ray, Sphere};
@@ -79,7 +79,14 @@ impl FromStr for Tier {
     type Err = UnknownName;
 
     fn from_str(name: &str) -> Result<Self, UnknownName> {
-        UnknownName::or(Self::ALL.into_iter().find(|tier| tier.as_str() == name))
+        const NAMES: [&str; 4] = [
+            Tier::Fast.as_str(),
+            Tier::Geometric.as_str(),
+            Tier::Stable.as_str(),
+            Tier::Exact.as_str(),
+        ];
+        let error = UnknownName { kind: "tier", names: &NAMES };
+        Self::ALL.into_iter().find(|tier| tier.as_str() == name).ok_or(error)
     }
 }
 

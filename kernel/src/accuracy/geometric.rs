@@ -65,8 +65,7 @@ impl TierFormula for Geometric {
     }
 
     fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
-        let (center, radius) = (sphere.center.to_array(), sphere.radius);
-        line_roots_of(|rays| roots(&Self::prepare(rays), center, radius), ray)
+        line_roots_of(Self::prepare, roots, ray, sphere)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Tells in single precision which spheres lie past a limit: where a ray meets many spheres one behind the other, that
+//! Tells in single precision which spheres lie past a limit. Where a ray meets many spheres one behind the other, that
 //! saves most of what a tier costs.
 //!
 //! Both roots are at least (b - sqrt D) / a, so both are past the limit where b - sqrt D > limit a, with D = a
@@ -12,8 +12,9 @@
 //! told. (Dividing by |p| + r would cover such lengths: a list of 100 spheres lost 5 % by it.)
 
 use super::roots::RayLanes;
-use crate::numeric::axes::{axes, dot};
+use crate::numeric::axes::{axes, cross, dot, largest};
 use crate::numeric::power_of_two::inverse_powers_of_two;
+use crate::numeric::rounding::SHORTEST;
 use crate::{LaneMask, Lanes};
 
 /// Tells whether both roots of a sphere lie past a limit.
@@ -36,7 +37,7 @@ impl<L: Lanes> RangeLimits<L> {
         let mut per_limit = a;
         let usual = a.like(SHORTEST).le(a) & a.le(a.like(1.0 / SHORTEST));
         if (rays.live & !usual).any() {
-            let scale = inverse_powers_of_two(longest(direction));
+            let scale = inverse_powers_of_two(largest(direction));
             direction = axes!(i => direction[i] * scale);
             a = dot(direction, direction);
             per_limit = Self::per_limit(a, scale);
@@ -105,25 +106,16 @@ impl<L: Lanes> RangeLimits<L> {
         // Among subnormals the next t may be twice the last, which is more than any margin: a t
         // past the limit by one of them does not count as past it yet.
         let end = (limit + limit.like(f32::MIN_POSITIVE)) * self.per_limit;
-        let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
+        let x = cross(d, p);
         [end, dot(d, p), self.a * (radius * radius) - dot(x, x)]
     }
 }
 
-/// The largest component.
-#[inline(always)]
-pub(super) fn longest<L: Lanes>(d: [L; 3]) -> L {
-    d[0].abs().filter_max(d[1].abs()).filter_max(d[2].abs())
-}
-
-/// 64v.
+/// 64 u of the square of |d| (|p| + r): D is raised by it, which covers its error.
 pub(crate) const RAISE: f32 = 32.0 * f32::EPSILON;
-/// 2^-20.
+/// 16 u = 2^-20, of |d| (|p| + r) and of limit a: the margin of the comparison.
 pub(crate) const MARGIN: f32 = 8.0 * f32::EPSILON;
 /// 2^-38: below it, the squares of |p| and r might underflow in `Stable`.
 const LEAST_SIZE: f32 = 1.0 / (1u64 << 38) as f32;
-
-/// 2^-60: a squared direction below this, or above its inverse, is not used.
-const SHORTEST: f32 = 1.0 / (1_u64 << 60) as f32;
-/// 2^-120.
+/// 2^-120: added to raise and margin, it covers what underflows.
 pub(crate) const LEAST_A: f32 = 1.0 / (1u128 << 120) as f32;

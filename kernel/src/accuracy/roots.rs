@@ -1,9 +1,9 @@
 //! Rays in registers, and the roots that a tier finds on their lines.
 
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::LaneArray;
 use crate::numeric::axes::axes;
-use crate::{Lanes, Ray};
+use crate::{Lanes, Ray, Sphere};
 use glam::Vec3;
 
 /// The rays of a packet in registers, as the tiers read them.
@@ -13,7 +13,7 @@ pub struct RayLanes<L: Lanes> {
     pub(crate) direction: [L; 3],
     pub(crate) t_min: L,
     pub(crate) t_max: L,
-    /// Rule 1 for rays, and an interval that is not empty.
+    /// The lanes whose ray rule 1 lets hit anything, and whose interval is not empty.
     pub(crate) live: L::Mask,
 }
 
@@ -41,14 +41,14 @@ impl<L: Lanes> RayLanes<L> {
         Ray { origin, direction, t_min, t_max }
     }
 
-    /// Rule 3.
+    /// The lanes in which rule 3 accepts `t`.
     #[inline(always)]
     pub(super) fn accept(&self, t: L) -> L::Mask {
         self.t_min.le(t) & t.le(self.t_max) & t.abs().le(t.like(f32::MAX))
     }
 }
 
-/// Neither NaN nor infinite in any component.
+/// The lanes in which no component is NaN or infinite.
 #[inline(always)]
 pub(crate) fn all_finite<L: Lanes>(v: [L; 3]) -> L::Mask {
     let largest = v[0].like(f32::MAX);
@@ -80,10 +80,13 @@ impl<L: Lanes> Roots<L> {
 
 /// Both roots of one line, by the lanes of a tier that always computes both roots.
 #[inline(always)]
-pub(super) fn line_roots_of(
-    roots: impl Fn(&RayLanes<f32>) -> Roots<f32>,
+pub(super) fn line_roots_of<P>(
+    prepare: impl Fn(&RayLanes<f32>) -> P,
+    roots: impl Fn(&P, [f32; 3], f32) -> Roots<f32>,
     ray: &Ray,
+    sphere: &Sphere,
 ) -> Option<[f32; 2]> {
-    let roots = roots(&RayLanes::load((), &RayPacket::<[f32; 1]>::new(&[*ray])));
+    let rays = RayLanes::load((), &RayPacket::<[f32; 1]>::new(&[*ray]));
+    let roots = roots(&prepare(&rays), sphere.center.to_array(), sphere.radius);
     roots.meets.then_some([roots.near + 0.0, roots.far + 0.0])
 }

@@ -1,4 +1,4 @@
-//! The closest point first, then the most that single precision can give.
+//! The quadratic, solved near the closest point of the line: the most accurate form in single precision.
 //!
 //! # Method
 //!
@@ -26,9 +26,9 @@
 //! The direction is scaled by a power of two to a length near one, which is exact, and t is scaled back.
 
 use super::formula::{Squares, Tier, TierFormula, Underflow};
-use super::range_limits::{RangeLimits, longest};
+use super::range_limits::RangeLimits;
 use super::roots::{RayLanes, Roots, line_roots_of};
-use crate::numeric::axes::{axes, dot};
+use crate::numeric::axes::{axes, dot, largest};
 use crate::numeric::error_free::{VeltkampSplit, two_sum};
 use crate::numeric::power_of_two::inverse_powers_of_two;
 use crate::{LaneMask, Lanes, Ray, Sphere};
@@ -77,7 +77,7 @@ impl TierFormula for Stable {
     #[inline(always)]
     fn prepare<L: Lanes>(rays: &RayLanes<L>) -> StableRays<L> {
         let d = rays.direction;
-        let scale = inverse_powers_of_two(longest(d));
+        let scale = inverse_powers_of_two(largest(d));
         let d = axes!(i => d[i] * scale);
         let a = dot(d, d);
         StableRays {
@@ -110,8 +110,7 @@ impl TierFormula for Stable {
     }
 
     fn line_roots(ray: &Ray, sphere: &Sphere) -> Option<[f32; 2]> {
-        let (center, radius) = (sphere.center.to_array(), sphere.radius);
-        line_roots_of(|rays| roots(&Self::prepare(rays), center, radius), ray)
+        line_roots_of(Self::prepare, roots, ray, sphere)
     }
 }
 

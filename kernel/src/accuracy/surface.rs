@@ -1,5 +1,5 @@
-//! The surface at a hit, from the sphere's centre and never through t: from afar, t is rounded by more than the
-//! sphere's size.
+//! The surface at a hit, computed from the sphere's centre and not from t. For a ray from afar, t is rounded by more
+//! than the sphere's size.
 //!
 //! # Method
 //!
@@ -17,8 +17,9 @@
 use super::constants::Constants;
 use super::roots::RayLanes;
 use crate::lanes::{DoubleLanes, LaneArray, Lanes};
-use crate::numeric::axes::{axes, dot};
+use crate::numeric::axes::{axes, cross, dot, sum_of_magnitudes};
 use crate::numeric::error_free::two_sum;
+use crate::numeric::rounding::DOUBLE_U as U;
 use crate::{Ray, Sphere};
 
 /// [`Surface`]s in registers.
@@ -32,11 +33,9 @@ pub struct SurfaceLanes<L> {
 /// 2^29 + 1: a split by it leaves the bits of single precision.
 const SPLITTER: f64 = 536_870_913.0;
 /// 16 ulp of t, at least.
-const NEAR: f64 = 16.0 / 8_388_608.0;
+const NEAR_ULPS: f64 = 16.0 / 8_388_608.0;
 /// Half an ulp of t, at most.
 const HALF_A_STEP: f64 = 0.5 / 8_388_608.0;
-/// u, of double precision.
-const U: f64 = f64::EPSILON / 2.0;
 
 /// The factors in the bound of D, where d x p is in two terms.
 const TWO_TERMS: Constants = Constants {
@@ -153,15 +152,15 @@ impl<D: DoubleLanes> Line<D> {
         (point, error, per_radius)
     }
 
-    /// The lanes in which `t` is as near the near root as a tier gets, or nearer to it than to the far one. A near root that rounds
-    /// to a t before `t_min` is answered only by a t before the middle: that of a tier which takes the root to be later.
+    /// The lanes in which `t` is nearer to the near root than to the far one, or as near the near root as a tier gets. If the
+    /// near root rounds to a t before `t_min`, only a t before the middle answers it: a tier took the root to be later.
     #[inline(always)]
     fn answers_near(&self, t: D, t_min: D) -> D::Mask {
         let zero = t.like(0.0);
         let root = D::select(zero.lt(self.discriminant), self.discriminant, zero).sqrt();
         let past_middle = t * self.a - self.slope;
         let from_near = (past_middle + root).abs();
-        let is_near = from_near.le((t * self.a).abs() * t.like(NEAR));
+        let is_near = from_near.le((t * self.a).abs() * t.like(NEAR_ULPS));
         let rounding = (t * self.a).abs() * t.like(HALF_A_STEP);
         past_middle.le(zero) | (is_near & (t_min * self.a).le(self.slope - root + rounding))
     }
@@ -179,11 +178,6 @@ impl<D: DoubleLanes> Line<D> {
     }
 }
 
-#[inline(always)]
-fn cross<D: DoubleLanes>(u: [D; 3], v: [D; 3]) -> [D; 3] {
-    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-}
-
 /// d_0 (c_1 - o_1) - d_1 (c_0 - o_0) of numbers of single precision, whose products are exact.
 #[inline(always)]
 fn cross_in_two_terms<D: DoubleLanes>(d: [D; 2], c: [D; 2], o: [D; 2]) -> D {
@@ -192,25 +186,21 @@ fn cross_in_two_terms<D: DoubleLanes>(d: [D; 2], c: [D; 2], o: [D; 2]) -> D {
     (high - other_high) + (low - other_low)
 }
 
-#[inline(always)]
-fn sum_of_magnitudes<D: DoubleLanes>(v: [D; 3]) -> D {
-    v[0].abs() + v[1].abs() + v[2].abs()
-}
-
 /// One ray and one sphere.
 pub(super) fn line<const IN_TWO_TERMS: bool>(ray: &Ray, sphere: &Sphere) -> Line<f64> {
     let [o, d, c] = [ray.origin, ray.direction, sphere.center].map(|v| v.to_array().map(f64::from));
     Line::new::<IN_TWO_TERMS>(o, d, c, f64::from(sphere.radius))
 }
 
-/// What rounding to single precision takes from a number (Veltkamp).
+/// A number minus its rounding to single precision (Veltkamp).
 #[inline(always)]
 pub(super) fn rest<D: DoubleLanes>(value: D) -> D {
     let scaled = value * value.like(SPLITTER);
     value - (scaled - (scaled - value))
 }
 
-/// Where rays hit spheres of positive radius at `t`, in double precision: compiled once for the tiers that share it.
+/// The surfaces of spheres of positive radius that rays hit at `t`, in double precision. The tiers that share this
+/// function share its code.
 #[inline(always)]
 pub(super) fn in_lanes<L: Lanes>(
     rays: &RayLanes<L>,

@@ -84,35 +84,44 @@ impl<F: TierFormula> Accuracy for F {
     }
 }
 
+/// The value of an expression in which a name stands for the type of a tier.
+macro_rules! by_tier {
+    ($tier:expr, $formula:ident => $value:expr) => {
+        match $tier {
+            Tier::Fast => {
+                type $formula = Fast;
+                $value
+            }
+            Tier::Geometric => {
+                type $formula = Geometric;
+                $value
+            }
+            Tier::Stable => {
+                type $formula = Stable;
+                $value
+            }
+            Tier::Exact => {
+                type $formula = Exact;
+                $value
+            }
+        }
+    };
+}
+
 impl sealed::Chosen for Tier {
     #[inline(always)]
     fn spread(self) -> f32 {
-        match self {
-            Self::Fast => Fast::SPREAD,
-            Self::Geometric => Geometric::SPREAD,
-            Self::Stable => Stable::SPREAD,
-            Self::Exact => Exact::SPREAD,
-        }
+        by_tier!(self, F => F::SPREAD)
     }
 
     #[inline(always)]
     fn underflow(self) -> Underflow {
-        match self {
-            Self::Fast => Fast::UNDERFLOW,
-            Self::Geometric => Geometric::UNDERFLOW,
-            Self::Stable => Stable::UNDERFLOW,
-            Self::Exact => Exact::UNDERFLOW,
-        }
+        by_tier!(self, F => F::UNDERFLOW)
     }
 
     #[inline(always)]
     fn squares(self) -> Squares {
-        match self {
-            Self::Fast => Fast::SQUARES,
-            Self::Geometric => Geometric::SQUARES,
-            Self::Stable => Stable::SQUARES,
-            Self::Exact => Exact::SQUARES,
-        }
+        by_tier!(self, F => F::SQUARES)
     }
 
     #[inline(always)]
@@ -122,20 +131,12 @@ impl sealed::Chosen for Tier {
 
     #[inline(always)]
     fn with_formula<W: TierWork>(self, work: W) -> W::Output {
-        match self {
-            Self::Fast => work.run::<Fast>(),
-            Self::Geometric => work.run::<Geometric>(),
-            Self::Stable => work.run::<Stable>(),
-            Self::Exact => work.run::<Exact>(),
-        }
+        by_tier!(self, F => work.run::<F>())
     }
 
     #[inline(always)]
     fn compare_at(self, ray: &Ray, t: f32, spheres: [&Sphere; 2]) -> Ordering {
-        match self {
-            Self::Fast | Self::Geometric | Self::Stable => Ordering::Equal,
-            Self::Exact => <Exact as TierFormula>::compare_at(ray, t, spheres),
-        }
+        by_tier!(self, F => <F as TierFormula>::compare_at(ray, t, spheres))
     }
 }
 
@@ -241,5 +242,22 @@ impl<L: Lanes> TierWork for LaneTest<'_, L> {
                 L::select(active, t, limit.like(f32::INFINITY))
             },
         )
+    }
+}
+
+#[cfg(all(test, proofs))]
+mod tests {
+    use super::*;
+
+    /// What traversals read of a tier.
+    fn numbers(tier: impl Accuracy) -> ([f32; 4], Squares) {
+        let Underflow { length, size } = tier.underflow();
+        ([tier.spread(), tier.answer_error(), length, size], tier.squares())
+    }
+
+    #[test]
+    fn a_value_has_the_numbers_of_its_type() {
+        let types = [numbers(Fast), numbers(Geometric), numbers(Stable), numbers(Exact)];
+        assert_eq!(Tier::ALL.map(numbers), types);
     }
 }

@@ -107,8 +107,8 @@ impl SphereTree {
     /// Replaces each sphere of the tree by the one with the same index in `moved`, centre and radius. Returns the
     /// [growth](Bvh::growth) of the boxes since the tree was built: at 1.5 or 2 it is time to build anew.
     ///
-    /// `moved` is [`Spheres`](crate::Spheres), a slice, a vector or an array of anything that becomes a [`Sphere`](crate::Sphere), or a
-    /// [`SphereList`], given or lent. If one of your conversions panics, refit the tree again before it is used.
+    /// `moved` is a list, a slice, a vector or an array, given or lent: [`MovedSpheres`]. If one of your conversions panics, refit
+    /// the tree again before it is used.
     ///
     /// Guarantees what a new tree guarantees. [`BvhMemory::refit`](crate::BvhMemory::refit) says what becomes of spheres that
     /// are not valid, and of those far larger or smaller than they were.

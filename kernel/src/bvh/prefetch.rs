@@ -14,7 +14,7 @@ use super::node::{BvhNode, LEAF, WIDTH};
 
 /// Trees of more bytes are far from the core, and prefetched: so many its second-level cache holds where that was measured.
 /// (With 10,000 spheres, all of which it holds, prefetching took a tenth more time.)
-pub(super) const NEAR: usize = 1 << 20;
+pub(super) const NEAR_BYTES: usize = 1 << 20;
 
 /// A bit pattern that depends on every line of a node.
 #[inline(always)]

@@ -7,7 +7,7 @@ use super::build::top_down;
 use super::built::Built;
 use super::leaf::{Leaf, extent_of, number_of};
 use super::node::BvhNode;
-use super::prefetch::NEAR;
+use super::prefetch::NEAR_BYTES;
 use super::source::{SomeSpheres, SphereSource, Which};
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::memory::TooSmall;
@@ -111,7 +111,7 @@ impl<'a> Bvh<'a> {
     ///
     /// Cost: time in proportion to n log n for n spheres, wherever they lie, since a node makes at most fifteen cuts, and its
     /// children have at most an eighth of its spheres. Stack: some 40 KiB, or 34 KiB on a Cortex-M4F (`tests/targets/sizes`);
-    /// where that is too much, a [`Bvh4`](crate::Bvh4) takes 2 KiB. No other memory.
+    /// where that is too much, a [`Bvh4`](crate::Bvh4) takes 2.7 KiB (`docs/targets.md`). No other memory.
     ///
     /// # Errors
     /// [`TooSmall`] if a slice is shorter than [`Bvh::needed`] says. A longer slice is no error, and its rest is left alone.
@@ -172,9 +172,9 @@ impl<'a> Bvh<'a> {
         indices: &mut [u32],
     ) -> Result<Built, TooSmall> {
         let needed = Self::needed(spheres.len());
-        TooSmall::check(needed.nodes, nodes.len())?;
-        TooSmall::check(needed.places, places.len())?;
-        TooSmall::check(needed.places, indices.len())?;
+        TooSmall::check("nodes", needed.nodes, nodes.len())?;
+        TooSmall::check("places", needed.places, places.len())?;
+        TooSmall::check("indices", needed.places, indices.len())?;
         Ok(top_down::build(join, spheres, nodes, places, indices))
     }
 
@@ -219,7 +219,7 @@ impl<'a> Bvh<'a> {
     /// Whether the tree is near the core: its second-level cache holds it.
     #[inline(always)]
     pub(crate) fn is_near(&self) -> bool {
-        self.bytes() <= NEAR
+        self.bytes() <= NEAR_BYTES
     }
 
     /// The spheres that are in the tree, in the order of their list.

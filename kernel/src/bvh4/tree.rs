@@ -107,7 +107,7 @@ impl<'a> Bvh4<'a> {
     /// target.
     ///
     /// Cost: time in proportion to n log² n for n spheres, wherever they lie. (A ray that meets a sphere also meets all spheres
-    /// that are equal to it.) Stack: some 2.5 KiB on 32 bits. No other memory.
+    /// that are equal to it.) Stack: 2.7 KiB on 32 bits (`docs/targets.md`). No other memory.
     ///
     /// # Errors
     /// [`TooSmall`] if there are fewer words than [`Bvh4::needed`] says; more words are no error, and the rest is left as it
@@ -124,8 +124,8 @@ impl<'a> Bvh4<'a> {
     /// ```
     pub fn build(spheres: Spheres<'a>, words: &'a mut [u32]) -> Result<Self, TooSmall> {
         let needed = Self::needed(spheres.len());
-        TooSmall::check(needed, words.len())?;
-        let too_small = TooSmall { needed, given: words.len() };
+        TooSmall::check("words", needed, words.len())?;
+        let too_small = TooSmall { what: "words", needed, given: words.len() };
         let (order_end, scale) = (HEADER + spheres.len(), SceneScale::of(&spheres));
         let order = words.get_mut(HEADER..order_end).ok_or(too_small)?;
         let [inside, valid] = order::write(&spheres, &scale, order);

@@ -10,7 +10,7 @@ use super::tree::Bvh4;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, Squares, TierFormula, TierWork};
 use crate::bvh::traverse::prepared_packet::PreparedPacket;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::linear::meet_sphere;
 use crate::numeric::axes::axes;
@@ -123,7 +123,7 @@ impl<L: Lanes, Q: Query> TierWork for Walk<'_, L, Q> {
     }
 }
 
-/// The next leaf on the stack, or below what is on it.
+/// Takes boxes from the stack, and puts those of their children onto it, until one is a leaf.
 #[inline(always)]
 fn next_leaf(tree: &Bvh4<'_>, slabs: &Slabs, stack: &mut Stack) -> Option<Place> {
     while let Some((place, entry)) = stack.pop() {

@@ -113,7 +113,7 @@ impl<'a> DepthList<'a> {
         memory: &'a mut [f32],
     ) -> Result<Self, TooSmall> {
         let needed = Self::needed(spheres.len());
-        TooSmall::check(needed, memory.len())?;
+        TooSmall::check("numbers", needed, memory.len())?;
         let scale = SceneScale::of(&spheres);
         let view = View::new(viewpoint, scale.factor);
         let memory = memory.get_mut(..needed).unwrap_or_default();

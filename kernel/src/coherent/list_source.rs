@@ -16,7 +16,7 @@ use crate::Accuracy;
 use crate::accuracy::RayLanes;
 use crate::bvh::source::SphereSource;
 use crate::count::count;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::lanes::{LaneMask, Lanes};
 use crate::linear;

@@ -6,7 +6,7 @@ use super::packet_state::PacketState;
 use super::tile_fit;
 use crate::geometry::camera::tiles::CameraTiles;
 use crate::geometry::many::ManyRays;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::{LaneArray, Lanes};
 use core::ops::Range;
 

@@ -16,7 +16,7 @@ use crate::bvh::traverse::prepared_ray::PreparedLanes;
 use crate::bvh::traverse::root_interval::{Pass, RootInterval};
 use crate::count::count;
 use crate::geometry::hit::HitPacket;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere_columns::SphereColumns;
 use crate::lanes::{LaneArray, LaneMask, Lanes, WIDTH};
 use crate::numeric::axes::axes;

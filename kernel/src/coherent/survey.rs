@@ -6,7 +6,7 @@ use super::view::View;
 use crate::accuracy::RayLanes;
 use crate::bvh::traverse::prepared_ray::PreparedLanes;
 use crate::count::count;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 

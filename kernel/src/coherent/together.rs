@@ -8,7 +8,7 @@ use super::tree_group::{Boxes, Ended, states_of};
 use crate::Accuracy;
 use crate::bvh::traverse::packet_set::PacketSet;
 use crate::bvh::tree::Bvh;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::Lanes;
 use crate::query::Query;
 use core::ops::Range;

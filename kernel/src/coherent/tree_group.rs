@@ -29,7 +29,7 @@ use crate::bvh::prefetch;
 use crate::bvh::traverse::small_tree;
 use crate::bvh::tree::Bvh;
 use crate::count::count;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
 use crate::scale::rays::ScaledRays;

@@ -18,12 +18,13 @@ use glam::Vec3;
 /// By which part of |x| + r depths are lowered.
 pub(crate) const DEPTH_MARGIN: f32 = 64.0 * U;
 
-/// What the rays of a run have in common.
+/// What the rays of a run have in common. Rays that do not have it are tested against all spheres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Viewpoint {
-    /// All start here: a perspective camera's eye, a point light.
+    /// All start here, at exactly these three numbers: a perspective camera's eye, a point light.
     Origin(Vec3),
-    /// All have this direction, of any length: a parallel projection, a directional light.
+    /// All have exactly these three numbers as their direction: a parallel projection, a directional light. They have its
+    /// length, too, which need not be 1: the same direction of another length is another.
     Direction(Vec3),
 }
 

@@ -1,7 +1,7 @@
 //! The one level that there is without `std`: what the build's target guarantees.
 
 use crate::geometry::many::ManyRays;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 
 /// Sixteen lanes; one where the target has no vectors. Arrays in their place would be as slow, and six times as long.
 #[cfg(any(target_feature = "sse2", target_feature = "neon", target_feature = "simd128"))]

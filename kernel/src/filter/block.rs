@@ -6,9 +6,8 @@ use crate::accuracy::{RayLanes, Underflow};
 use crate::geometry::sphere::Sphere;
 use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::{LaneMask, Lanes};
-use crate::numeric::axes::{axes, dot};
+use crate::numeric::axes::{axes, dot, largest};
 use crate::numeric::rounding::LARGEST;
-use crate::scale::rays::largest;
 use crate::scale::scene::size;
 
 /// Four spheres as the filter reads them.
@@ -62,7 +61,7 @@ pub(crate) struct FilterBlock {
 }
 
 impl FilterBlock {
-    /// A block that no sphere is in.
+    /// A block without spheres.
     #[inline(always)]
     pub(crate) const fn empty() -> Self {
         let groups = [FilterGroup::EMPTY; BLOCK];

@@ -5,9 +5,8 @@ use crate::accuracy::{RayLanes, Underflow};
 use crate::geometry::sphere::Sphere;
 use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::Lanes;
-use crate::numeric::axes::axes;
+use crate::numeric::axes::{axes, largest};
 use crate::numeric::rounding::LARGEST;
-use crate::scale::rays::largest;
 use crate::scale::scene::{size, to_one};
 
 /// The space that a block of spheres, or a ball, is seen in.
@@ -17,8 +16,8 @@ pub(crate) struct Frame {
     pub(crate) scale: f32,
     /// K, scaled.
     pub(crate) shift: [f32; 3],
-    /// No sphere counts as smaller, scaled. (As a square it was seen that the compiler multiplies it by itself beside what
-    /// is needed, to a subnormal number: half of the time of `Fast`.)
+    /// No sphere counts as smaller, scaled. (When this was the square, the compiler also multiplied it by itself, to a
+    /// subnormal number that nothing needs: half of the time of `Fast`.)
     pub(crate) least_size: f32,
     /// A direction without a larger component is not judged.
     pub(crate) least_length: f32,

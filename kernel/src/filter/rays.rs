@@ -5,13 +5,9 @@ use super::block::{FilterBlock, FilterGroup};
 use super::frame::Frame;
 use crate::accuracy::RayLanes;
 use crate::lanes::{LaneMask, Lanes};
-use crate::numeric::axes::{axes, dot};
+use crate::numeric::axes::{axes, dot, largest};
 use crate::numeric::power_of_two::inverse_powers_of_two;
-use crate::numeric::rounding::{LARGEST, LONGEST};
-use crate::scale::rays::largest;
-
-/// 2^-60: a direction whose square is below this, or above 2^100, is scaled first.
-const SHORTEST: f32 = 1.0 / (1_u64 << 60) as f32;
+use crate::numeric::rounding::{LARGEST, LONGEST, SHORTEST};
 
 /// The rays of a packet as the filter reads them, for one block.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +18,7 @@ pub(crate) struct FilterRays<L: Lanes> {
     pub(crate) twice_origin: [L; 3],
     /// -d.o.
     pub(crate) minus_along: L,
-    /// |o|^2, lowered by the bound; what passes lies above.
+    /// |o|^2, lowered by the bound: a sphere passes whose raised number is not below it.
     pub(crate) threshold: L,
 }
 

@@ -9,7 +9,9 @@
 mod tile_order;
 pub(crate) mod tiles;
 
-use super::ray::{Ray, RayPacket};
+use super::ray::Ray;
+
+use super::ray_packet::RayPacket;
 use crate::lanes::LaneArray;
 use glam::Vec3;
 

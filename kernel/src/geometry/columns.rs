@@ -1,7 +1,8 @@
 //! A caller's rays and hits in columns: a slice for each of their numbers.
 
 use super::hit::{Hit, HitPacket, NO_SPHERE};
-use super::ray::{Ray, RayPacket};
+use super::ray::Ray;
+use super::ray_packet::RayPacket;
 use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
 use core::ops::Range;

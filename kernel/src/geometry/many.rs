@@ -1,7 +1,8 @@
 //! A caller's many rays: a slice of them, columns, or packets.
 
 use super::columns::RayColumns;
-use super::ray::{Ray, RayPacket};
+use super::ray::Ray;
+use super::ray_packet::RayPacket;
 use crate::lanes::Lanes;
 
 /// A caller's rays, from which packets are filled.

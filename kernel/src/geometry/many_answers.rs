@@ -3,7 +3,7 @@
 use super::columns::HitColumns;
 use super::hit::{Hit, HitPacket};
 #[cfg(feature = "alloc")]
-use super::ray::RayPacket;
+use super::ray_packet::RayPacket;
 
 /// Where the answers of many rays go.
 pub trait ManyAnswers {

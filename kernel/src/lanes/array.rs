@@ -112,7 +112,8 @@ macro_rules! lane_array {
 
             #[inline(always)]
             fn part(numbers: &[f32; WIDTH], part: usize) -> Self {
-                let from = part * $count % WIDTH;
+                // Sixteen divides 2^32 and 2^64, so a product that wraps has the same remainder.
+                let from = part.wrapping_mul($count) % WIDTH;
                 let mut lanes = [0.0; $count];
                 let mut lane = 0;
                 while lane < $count {
@@ -124,7 +125,7 @@ macro_rules! lane_array {
 
             #[inline(always)]
             fn put_part(&self, numbers: &mut [f32; WIDTH], part: usize) {
-                let from = part * $count % WIDTH;
+                let from = part.wrapping_mul($count) % WIDTH;
                 let mut lane = 0;
                 while lane < $count {
                     numbers[(from + lane) % WIDTH] = self[lane];

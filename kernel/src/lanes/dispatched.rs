@@ -179,7 +179,7 @@ impl<S: Simd> Lanes for f32x16<S> {
     fn narrow(array: &mut [f32; 16], part: usize, doubles: f64x8<S>) {
         let singles = SimdNarrow::narrow(doubles, doubles).to_array();
         // Not `copy_from_slice`, which is a call in a build without link-time optimisation.
-        let first = part * 8 % 16;
+        let first = part.wrapping_mul(8) % 16;
         let mut lane = 0;
         while lane < 8 {
             array[first + lane] = singles[lane];

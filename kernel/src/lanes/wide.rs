@@ -73,8 +73,8 @@ macro_rules! shared_lane_operations {
     };
 }
 
-macro_rules! wide_lanes {
-    ($vector:ident, $count:literal, $double:ident) => {
+macro_rules! wide_mask {
+    ($vector:ident) => {
         impl LaneMask for WideMask<$vector> {
             #[inline(always)]
             fn bits(self) -> u32 {
@@ -86,6 +86,12 @@ macro_rules! wide_lanes {
                 self.0.any()
             }
         }
+    };
+}
+
+macro_rules! wide_lanes {
+    ($vector:ident, $count:literal, $double:ident) => {
+        wide_mask!($vector);
 
         impl Lanes for $vector {
             const COUNT: usize = $count;
@@ -119,7 +125,7 @@ macro_rules! wide_lanes {
             #[inline(always)]
             fn widen(self, part: usize) -> $double {
                 const WIDTH: usize = <$double as DoubleLanes>::COUNT;
-                let (singles, first) = (self.to_array(), part * WIDTH % $count);
+                let (singles, first) = (self.to_array(), part.wrapping_mul(WIDTH) % $count);
                 let mut doubles = [0.0; WIDTH];
                 for lane in 0..WIDTH {
                     doubles[lane] = f64::from(singles[first + lane]);
@@ -130,7 +136,7 @@ macro_rules! wide_lanes {
             #[inline(always)]
             fn narrow(array: &mut [f32; $count], part: usize, doubles: $double) {
                 const WIDTH: usize = <$double as DoubleLanes>::COUNT;
-                let (doubles, first) = (doubles.to_array(), part * WIDTH % $count);
+                let (doubles, first) = (doubles.to_array(), part.wrapping_mul(WIDTH) % $count);
                 for lane in 0..WIDTH {
                     array[first + lane] = doubles[lane] as f32;
                 }
@@ -151,17 +157,7 @@ macro_rules! wide_lanes {
 
 macro_rules! wide_double_lanes {
     ($vector:ident, $count:literal) => {
-        impl LaneMask for WideMask<$vector> {
-            #[inline(always)]
-            fn bits(self) -> u32 {
-                self.0.to_bitmask()
-            }
-
-            #[inline(always)]
-            fn any(self) -> bool {
-                self.0.any()
-            }
-        }
+        wide_mask!($vector);
 
         impl DoubleLanes for $vector {
             const COUNT: usize = $count;

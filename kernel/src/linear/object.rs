@@ -4,7 +4,7 @@ use super::one_sphere::take_closer;
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, TierFormula, TierWork};
 use crate::geometry::hit::HitPacket;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::axes;

@@ -3,7 +3,7 @@
 use crate::accuracy::{RayLanes, TierFormula, is_closer};
 use crate::count::count;
 use crate::geometry::hit::Hit;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;

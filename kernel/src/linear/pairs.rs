@@ -3,7 +3,7 @@
 use crate::Accuracy;
 use crate::accuracy::{RayLanes, all_finite, test_lanes};
 use crate::geometry::hit::HitPacket;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::SpherePacket;
 use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::axes;

@@ -5,7 +5,7 @@
 
 use super::one_sphere::meet_sphere;
 use crate::accuracy::{RayLanes, TierFormula, TierWork};
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere_run::SphereRun;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;

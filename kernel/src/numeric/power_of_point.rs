@@ -1,10 +1,8 @@
 //! The power of a point with respect to a sphere: below zero inside, above it outside.
 
 use super::error_free::two_sum;
+use super::rounding::DOUBLE_U as U;
 use crate::lanes::DoubleLanes;
-
-/// u, of double precision.
-const U: f64 = f64::EPSILON / 2.0;
 
 /// |x - c|^2 - r^2 of numbers of single precision, and a bound on its error besides u of itself.
 ///

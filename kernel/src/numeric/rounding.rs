@@ -4,11 +4,15 @@ use crate::Lanes;
 
 /// u = 2^-24, the unit roundoff of `f32`.
 pub(crate) const U: f32 = f32::EPSILON / 2.0;
+/// u = 2^-53, the unit roundoff of `f64`.
+pub(crate) const DOUBLE_U: f64 = f64::EPSILON / 2.0;
 /// 2^56, in the units in which bounds see a scene: rays that start beyond it are tested without bounds.
 pub(crate) const LARGEST: f32 = 72_057_594_037_927_936.0;
 /// 2^100: a squared direction above this, or below its inverse, is not used; the direction is scaled before.
 pub(crate) const LONGEST: f32 = LARGEST * 17_592_186_044_416.0;
-/// 2^-60.
+/// 2^-60: a direction whose square is below this is scaled before.
+pub(crate) const SHORTEST: f32 = 1.0 / (1_u64 << 60) as f32;
+/// 2^-60: no component of a unit direction counts as smaller where it divides; elsewhere it covers what underflows.
 pub(crate) const LEAST_COMPONENT: f32 = 1.0 / (1_073_741_824.0 * 1_073_741_824.0);
 
 /// At most the true s, as [`raised`].

@@ -3,7 +3,7 @@
 
 use crate::accuracy::RayLanes;
 use crate::lanes::Lanes;
-use crate::numeric::axes::axes;
+use crate::numeric::axes::{axes, largest};
 use crate::numeric::power_of_two::inverse_powers_of_two;
 
 /// Rays whose origins and directions are scaled; their t are as given.
@@ -20,7 +20,7 @@ pub(crate) struct ScaledRays<L: Lanes> {
     pub(crate) reach: L,
 }
 
-/// 2^40.
+/// 2^40: added to `per_t`, it keeps a step from being subnormal.
 const LEAST_PER_T: f32 = (1_u64 << 40) as f32;
 /// 2^-89 and 2^-60: their product is the least number.
 const LEAST: [f32; 2] = [1.0 / (1_u128 << 89) as f32, 1.0 / (1_u64 << 60) as f32];
@@ -71,10 +71,4 @@ impl<L: Lanes> ScaledRays<L> {
 #[inline(always)]
 pub(crate) fn step_of<L: Lanes>(per_t: L) -> L {
     (per_t + per_t.like(LEAST_PER_T)) * per_t.like(LEAST[0]) * per_t.like(LEAST[1])
-}
-
-/// The largest coordinate.
-#[inline(always)]
-pub(crate) fn largest<L: Lanes>(v: [L; 3]) -> L {
-    v[0].abs().filter_max(v[1].abs()).filter_max(v[2].abs())
 }

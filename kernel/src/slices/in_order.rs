@@ -10,7 +10,8 @@ use crate::coherent::ray_order::{
 use crate::dispatch::Level;
 use crate::geometry::many::ManyRays;
 use crate::geometry::many_answers::ManyAnswers;
-use crate::geometry::ray::{Ray, RayPacket};
+use crate::geometry::ray::Ray;
+use crate::geometry::ray_packet::RayPacket;
 use crate::memory::lengthen;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;

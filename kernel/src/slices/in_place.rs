@@ -5,7 +5,7 @@ use super::window::PACKETS;
 use crate::Accuracy;
 use crate::coherent::ray_order::{FEWEST_IN_GROUPS, GainByOrder, MOST};
 use crate::geometry::many::ManyRays;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 

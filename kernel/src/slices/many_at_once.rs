@@ -5,7 +5,7 @@ use crate::Accuracy;
 use crate::geometry::many::ManyRays;
 #[cfg(not(feature = "std"))]
 use crate::geometry::many_answers::ManyAnswers;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::memory::lengthen;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;

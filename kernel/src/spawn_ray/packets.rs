@@ -3,16 +3,18 @@
 //! Steps are tried in double-precision lanes; a ray that these cannot decide goes on alone.
 
 use super::side::GRAZING;
-use super::start::{DEEP, U, largest_of, start_of};
+use super::start::{DEEP, start_of};
 use super::steps::{next, step_of};
 use crate::accuracy::{Accuracy, RayLanes, Tier, test_lanes};
 use crate::geometry::hit::HitPacket;
-use crate::geometry::ray::{Ray, RayPacket};
+use crate::geometry::ray::Ray;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::Spheres;
 use crate::geometry::surface::SurfacePacket;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
-use crate::numeric::axes::{axes, dot};
+use crate::numeric::axes::{axes, dot, largest};
 use crate::numeric::power_of_point::power_of;
+use crate::numeric::rounding::DOUBLE_U as U;
 use crate::surface::HitSpheres;
 use glam::Vec3;
 
@@ -265,7 +267,7 @@ impl<L: Lanes> Spawn<L> {
 
         // On which side the origin surely is, and whether the ray surely goes away from the centre; and whether it is finite: the
         // way to a light may leave the range of numbers. From inside, whether its far side is surely not before the interval.
-        let (start, longest) = (start_of(direction, self.radius), largest_of(direction));
+        let (start, longest) = (start_of(direction, self.radius), largest(direction));
         let [mut inner, mut outer, mut away, mut deep, mut finite] = [0_u32; 5];
         for part in 0..L::PARTS {
             let first = part * L::Double::COUNT;

@@ -3,7 +3,6 @@
 use crate::exact::QuadraticTerms;
 use crate::geometry::sphere::Sphere;
 use crate::geometry::surface::Surface;
-use crate::lanes::Lanes;
 use crate::numeric::axes::dot;
 use crate::numeric::power_of_point::power_of;
 use core::cmp::Ordering;
@@ -90,9 +89,10 @@ impl Surface {
         if dot(n, d) > GRAZING * length { Side::Inside } else { Side::Outside }
     }
 
-    /// The normal, away from the centre: a caller may have turned it towards his ray.
+    /// The normal, away from the centre: a caller may have turned it towards the ray.
     pub(super) fn outward(&self) -> Vec3 {
-        if along(self.normal.to_array(), self.point.to_array()) < 0.0 {
+        // Only the sign is asked, and all three products have it.
+        if dot(self.normal.to_array(), self.point.to_array()) < 0.0 {
             -self.normal
         } else {
             self.normal
@@ -102,9 +102,3 @@ impl Surface {
 
 /// 2^-22: the coordinates of a normal are off by 2^-25 at most by `Exact`, by 2^-24 by other tiers, except of tangents from afar.
 pub(super) const GRAZING: f64 = 2.0 * f32::EPSILON as f64;
-
-/// n.p in single precision: its sign alone is asked, and all three products have it.
-#[inline(always)]
-fn along<L: Lanes>(normal: [L; 3], point: [L; 3]) -> L {
-    normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2]
-}

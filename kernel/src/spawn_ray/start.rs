@@ -6,28 +6,20 @@ use crate::geometry::ray::Ray;
 use crate::geometry::sphere::Sphere;
 use crate::lanes::Lanes;
 use crate::linear::roots;
-use crate::numeric::axes::{axes, dot};
+use crate::numeric::axes::{axes, dot, largest};
 use crate::numeric::power_of_point::power_of;
+use crate::numeric::rounding::DOUBLE_U as U;
 use core::cmp::Ordering;
 use glam::Vec3;
-
-/// u, of double precision.
-pub(super) const U: f64 = f64::EPSILON / 2.0;
 
 /// Where the interval begins: 2^-42 r from the origin, or a little more, but above zero.
 #[inline(always)]
 pub(super) fn start_of<L: Lanes>(direction: [L; 3], radius: L) -> L {
-    let start = radius * radius.like(NEAREST) / largest_of(direction);
+    let start = radius * radius.like(NEAREST) / largest(direction);
     start.filter_max(radius.like(f32::from_bits(1)))
 }
 
-/// The largest coordinate.
-#[inline(always)]
-pub(super) fn largest_of<L: Lanes>(vector: [L; 3]) -> L {
-    vector[0].abs().filter_max(vector[1].abs()).filter_max(vector[2].abs())
-}
-
-/// 2^-42.
+/// 2^-42: an interval begins at least so many radii from the origin.
 const NEAREST: f32 = 1.0 / (1_u64 << 42) as f32;
 
 /// 2^-20: a ray goes back if the cosine of direction and normal is below minus this.
@@ -75,7 +67,7 @@ fn is_deep(ray: &Ray, sphere: &Sphere) -> bool {
     let r = f64::from(sphere.radius);
     let [x, c] = [ray.origin, sphere.center].map(|v| v.to_array().map(f64::from));
     let (power, margin) = power_of(x, c, r);
-    let start = f64::from(ray.t_min) * f64::from(largest_of(ray.direction.to_array()));
+    let start = f64::from(ray.t_min) * f64::from(largest(ray.direction.to_array()));
     power < -(margin + DEEP * r * start)
 }
 

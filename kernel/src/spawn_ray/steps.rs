@@ -1,12 +1,12 @@
 //! How far from the surface origins are tried.
 
-use super::start::largest_of;
 use crate::lanes::Lanes;
+use crate::numeric::axes::largest;
 
 /// A step: an ulp of the largest coordinate; more near zero, where a point is not known so well.
 #[inline(always)]
 pub(super) fn step_of<L: Lanes>(point: [L; 3], radius: L) -> L {
-    let largest = largest_of(point);
+    let largest = largest(point);
     // Between half an ulp and one, so that the sum is rounded to the next number; of the half, since the largest number has no next.
     let half = largest * largest.like(0.5);
     let ulp = (half + half * half.like(MORE_THAN_HALF)) - half;

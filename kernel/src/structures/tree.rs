@@ -28,7 +28,7 @@ use crate::geometry::hit::HitPacket;
 use crate::geometry::many::ManyRays;
 #[cfg(feature = "std")]
 use crate::geometry::ray::Ray;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::Spheres;
 use crate::lanes::Lanes;
 use crate::query::{ClosestHit, Query};

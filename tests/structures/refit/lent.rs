@@ -34,7 +34,9 @@ fn lent_memory() {
                 assert!(tree.growth() > 2.0, "{}", tree.growth());
                 assert_as_list(&tree, &far, &[Tier::Exact], &some);
             }
-            Err(RefitError::TooSmall(error)) => assert!(more == 0 && error.needed > error.given),
+            Err(RefitError::TooSmall(error)) => {
+                assert!(more == 0 && error.what == "indices" && error.needed > error.given);
+            }
             Err(error) => panic!("{error}"),
         }
         for list in [&near, &start] {

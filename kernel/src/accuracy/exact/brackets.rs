@@ -6,8 +6,8 @@ use crate::geometry::ray::Ray;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
 
-/// For every lane the least and the greatest `f32` that each root can round to: both `+inf` where
-/// the line surely misses, `-inf` and `+inf` where it is not known to meet the sphere.
+/// The least and the greatest `f32` that each root can round to, in every lane. Both are `+inf` where the line surely
+/// misses; they are `-inf` and `+inf` where it is not known to meet the sphere.
 pub(crate) struct Brackets<L: Lanes> {
     token: L::Token,
     near: [L::Array; 2],
@@ -82,7 +82,8 @@ impl<L: Lanes> Brackets<L> {
         (t, near.known & (near.hit | far.known | limit.lt(near.t)))
     }
 
-    /// A number of the bracket of a root that the ray in `lane` accepts whatever number of it the root rounds to.
+    /// Returns a t from the bracket of a root if the ray in `lane` accepts all numbers of that bracket: the root is one of
+    /// them.
     pub(super) fn surely_accepted(&self, lane: usize, ray: &Ray) -> Option<f32> {
         let accepts = |t: f32| ray.t_min <= t && t <= ray.t_max && t.is_finite();
         let ends = |[low, high]: &[L::Array; 2]| [low.get(lane), high.get(lane)];
@@ -90,7 +91,8 @@ impl<L: Lanes> Brackets<L> {
         [&self.near, &self.far].map(ends).iter().find(|ends| surely(ends)).map(|[low, _]| *low)
     }
 
-    /// A bracket past the limit counts as known: its root need not be known any better.
+    /// Says what the bracket of a root tells. The bracket of a root past the limit counts as known, since nothing asks
+    /// for that root.
     #[inline(always)]
     fn judge(&self, [low, high]: [L::Array; 2], rays: &RayLanes<L>, limit: L) -> Judged<L> {
         let (low, high) = (L::load(self.token, &low), L::load(self.token, &high));

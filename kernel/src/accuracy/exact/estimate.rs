@@ -2,7 +2,7 @@
 
 use crate::DoubleLanes;
 use crate::accuracy::constants::Constants;
-use crate::numeric::axes::{axes, dot};
+use crate::numeric::axes::{axes, cross, dot, sum_of_magnitudes};
 
 /// D and the roots as computed, each with a bound on its error.
 #[derive(Clone, Copy, Debug)]
@@ -51,7 +51,7 @@ impl<D: DoubleLanes> Sums<D> {
     #[inline(always)]
     pub(super) fn new(origin: [D; 3], d: [D; 3], center: [D; 3]) -> Self {
         let p = axes!(i => center[i] - origin[i]);
-        let x = [d[1] * p[2] - d[2] * p[1], d[2] * p[0] - d[0] * p[2], d[0] * p[1] - d[1] * p[0]];
+        let x = cross(d, p);
         Self {
             a: dot(d, d),
             b: dot(d, p),
@@ -110,9 +110,4 @@ impl<D: DoubleLanes> Estimate<D> {
         let (near, far) = (solved.t(near, constants), solved.t(far, constants));
         Self { discriminant, error, near, far }
     }
-}
-
-#[inline(always)]
-fn sum_of_magnitudes<D: DoubleLanes>(v: [D; 3]) -> D {
-    v[0].abs() + v[1].abs() + v[2].abs()
 }

@@ -10,10 +10,8 @@
 use crate::accuracy::surface::Line;
 use crate::numeric::axes::axes;
 use crate::numeric::power_of_point::power_of;
+use crate::numeric::rounding::DOUBLE_U as U;
 use crate::{Ray, Sphere};
-
-/// u, of double precision.
-const U: f64 = f64::EPSILON / 2.0;
 
 /// Returns the point of a root as seen from the centre, and a bound on the error of each coordinate; `None` if the root
 /// does not cancel, or if too little is known of D.

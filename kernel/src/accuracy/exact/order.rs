@@ -16,7 +16,7 @@ pub(super) struct Answered {
 }
 
 impl Answered {
-    /// By rule 4 the near root, if it rounds to t, which the interval accepts; else the far one.
+    /// Takes the near root if it rounds to t, else the far one: rule 4, since the interval accepts t.
     pub(super) fn new(ray: &Ray, t: f32, sphere: &Sphere) -> Self {
         let estimate = one_ray::estimate(ray, sphere);
         let [first, last] = estimate.near();

@@ -1,32 +1,25 @@
 //! The surface at a hit, correctly rounded.
 //!
-//! In double precision with its bound, as seen from the centre; where that does not decide, as seen from the start of
-//! the ray; then exactly, a coordinate at a time.
+//! Double precision with its bound computes it as seen from the centre and, where that does not decide, as seen from
+//! the start of the ray. Exact sums decide the rest, a coordinate at a time.
 
-use super::from_start;
 use super::order::Answered;
+use super::{from_start, one_ray};
 use crate::accuracy::RayLanes;
 use crate::accuracy::surface::{Line, SurfaceLanes, line, rest};
-use crate::exact::{Quadratic, QuadraticTerms, Root, SurfaceCoordinate, Surveyed};
+use crate::exact::{Quadratic, Root, SurfaceCoordinate, Surveyed};
 use crate::geometry::surface::Surface;
 use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 use crate::numeric::axes::axes;
+use crate::numeric::rounding::DOUBLE_U as U;
 use crate::{Ray, Sphere};
 use glam::Vec3;
 
-/// u, of double precision.
-const U: f64 = f64::EPSILON / 2.0;
-
-/// The surface of a sphere of positive radius where `ray` hits it at `t`; by exact sums where double precision does not
-/// decide.
+/// Returns the surface of a sphere of positive radius where `ray` hits it at `t`. Exact sums decide what double precision
+/// does not.
 pub(super) fn at(ray: &Ray, t: f32, sphere: &Sphere) -> Surface {
     let line = line::<true>(ray, sphere);
-    let terms = QuadraticTerms::new(
-        ray.origin.to_array(),
-        ray.direction.to_array(),
-        sphere.center.to_array(),
-        sphere.radius,
-    );
+    let terms = one_ray::terms(ray, sphere);
     let mut root = Answered::new(ray, t, sphere).root;
     if root == Root::Far && f64::from(t) * line.a < line.slope {
         // A far root rounds to a t before the middle if the roots are that close. Else t answers neither.
@@ -151,8 +144,9 @@ fn estimated<L: Lanes, const IN_TWO_TERMS: bool>(
     (surfaces, known)
 }
 
-/// In which lanes `t` answers the near root, and in which it is known which root it answers: by the side of b / a,
-/// where the line is closest to the centre. A root that rounds to t is within 2^-24 |t| of it, or 2^-149.
+/// Returns the lanes in which `t` answers the near root, and those in which it is known which root `t` answers. The near
+/// root lies before b / a, where the line is closest to the centre, and the far one after it. A root that rounds to t is
+/// within 2^-24 |t| of it, or 2^-149.
 #[inline(always)]
 fn root_of<D: DoubleLanes>(line: &Line<D>, t: D) -> (D::Mask, D::Mask) {
     let at_t = t * line.a;

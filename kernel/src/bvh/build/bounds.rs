@@ -5,7 +5,7 @@ use crate::numeric::axes::axes;
 use crate::numeric::rounding::U;
 use wide::f32x4;
 
-/// More spheres than these are counted by halves, which two threads can do.
+/// The bounds of more spheres than this are computed by halves, which two threads can do.
 const WORTH_A_THREAD: usize = 16_384;
 
 /// The corners of a box. The fourth lane fills a register; of a box of centres it is the radius.
@@ -16,7 +16,7 @@ pub(super) struct Corners {
 }
 
 impl Corners {
-    /// A box that nothing is in.
+    /// The box of nothing.
     pub(super) const EMPTY: Self =
         Self { low: f32x4::new([f32::INFINITY; 4]), high: f32x4::new([f32::NEG_INFINITY; 4]) };
 
@@ -34,13 +34,13 @@ impl Corners {
         [axes!(i => low[i].next_down()), axes!(i => high[i].next_up())]
     }
 
-    /// Whether nothing is in it.
+    /// Whether this is the box of nothing.
     #[inline(always)]
     pub(super) fn is_empty(&self) -> bool {
         self.low.to_array()[0] > self.high.to_array()[0]
     }
 
-    /// Holds another box, too.
+    /// Grows to hold another box, too.
     #[inline(always)]
     pub(super) fn hold(&mut self, other: Self) {
         self.low = self.low.fast_min(other.low);

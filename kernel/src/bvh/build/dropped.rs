@@ -1,22 +1,22 @@
 //! Copies of spheres for which no lane is free, while leaves are laid down.
 //!
-//! They wait where the spheres lay that were read last, right in front of what is read next, each with its own index and
-//! that of the sphere it is the same as. As reading goes on, they move along: at the end they are the last of the memory.
-//! So leaves in front of them have the room that copies do not take.
+//! A copy waits with its own index and that of the sphere it is the same as. The copies lie where the last spheres were
+//! read, right in front of the next. As reading goes on, they move along; at the end they are the last of the memory. So
+//! the leaves in front of them have all the other room.
 
 use crate::bvh::unplaced::Unplaced;
 
 /// How many wait, in front of what is read next.
 pub(super) struct Dropped {
     pub(super) count: usize,
-    /// Where what was read ends.
+    /// The end of what was read.
     read: usize,
     /// The lowest index of the leaf that was read last.
     last: u32,
 }
 
 impl Dropped {
-    /// Spheres begin at `first`.
+    /// No copies, before anything is read; the spheres begin at `first`.
     pub(super) const fn none(first: usize) -> Self {
         Self { count: 0, read: first, last: 0 }
     }
@@ -32,8 +32,8 @@ impl Dropped {
         (self.count, self.read) = (self.count + run.len(), run.end);
     }
 
-    /// A leaf was read up to `end`, whose lowest index is `first`; `copies` are its copies, with what they are the same as. Moves
-    /// as many as must move, the first of those that wait, to where the leaf was read.
+    /// Takes the `copies` of a leaf that was read up to `end`; `first` is the lowest index of the leaf. Copies that waited
+    /// before, the first of them, move to where the leaf was read, as many as must.
     pub(super) fn read_leaf(
         &mut self,
         places: &mut [[f32; 4]],
@@ -56,7 +56,7 @@ impl Dropped {
         (self.count, self.read, self.last) = (self.count + copies.len(), end, first);
     }
 
-    /// Writes those that wait at the end, the last of `all` places, to a table before them, from its front.
+    /// Writes the copies, which wait in the last of `all` places, to a table that begins before them, at `table`.
     pub(super) fn collect(&self, numbers: &mut [f32], all: usize, table: usize) {
         let from = 4 * all.saturating_sub(self.count);
         for number in 0..self.count {
@@ -71,7 +71,7 @@ impl Dropped {
     }
 }
 
-/// As it waits where a sphere was.
+/// A copy, as it waits where a sphere was.
 const fn waiting(index: u32, same: u32) -> [f32; 4] {
     let [index, same] = Unplaced { index, same }.bits();
     [index, same, 0.0, 0.0]

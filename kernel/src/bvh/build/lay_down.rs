@@ -11,8 +11,8 @@ use crate::bvh::leaf::{STEP, leaf_at};
 use crate::bvh::node::{BvhNode, LEAF, NO_CHILD, WIDTH};
 use crate::bvh::unplaced::Unplaced;
 
-/// How many bits say where the spheres of a leaf that is not laid down begin; the four above are their number, less
-/// one.
+/// How many bits of a leaf that is not laid down are the place of its first sphere; the four above them are the number
+/// of its spheres, less one.
 const BEGIN_BITS: u32 = 27;
 
 /// A leaf that is not laid down: of up to sixteen spheres.

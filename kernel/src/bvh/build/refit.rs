@@ -37,10 +37,10 @@ pub(crate) fn refit(
         let numbers = places.as_flattened().get(built.shift + built.leaves()..);
         let table = numbers.unwrap_or_default().as_chunks().0.get(..built.unplaced);
         let outside = outside(spheres, &built.scale, table.unwrap_or_default());
-        TooSmall::check(built.places + outside, indices.len())?;
+        TooSmall::check("indices", built.places + outside, indices.len())?;
     }
     let needed = refit_anyway(built, spheres, nodes, places, indices);
-    TooSmall::check(needed, indices.len())
+    TooSmall::check("indices", needed, indices.len())
 }
 
 /// The same, whatever the room: returns how many indices are needed. If these are more than there are, the tree is not

@@ -108,7 +108,7 @@ pub(super) fn extent_of(corners: [[f32; 3]; 2]) -> f32 {
     corners.as_flattened().iter().fold(0.0, |extent, coordinate| coordinate.abs().max(extent))
 }
 
-/// Writes down the spheres that are not inside, behind the leaves.
+/// Writes the indices of the spheres that bounds do not see behind the leaves.
 fn leave_out(
     built: &mut Built,
     places: &mut [[f32; 4]],

@@ -9,7 +9,7 @@ use crate::accuracy::{RayLanes, is_closer, test_lanes};
 use crate::bvh::source::SphereSource;
 use crate::bvh::tree::Bvh;
 use crate::geometry::hit::Hit;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
 use crate::query::Query;

@@ -10,7 +10,7 @@ use crate::bvh::tree::Bvh;
 use crate::count::count;
 use crate::filter::ball::may_come_near;
 use crate::geometry::hit::Hit;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::{LaneArray, LaneMask, Lanes};
 use crate::linear;
 use crate::query::Query;

@@ -21,10 +21,10 @@
 use super::ray_time::RayTime;
 use crate::accuracy::RayLanes;
 use crate::lanes::{LaneMask, Lanes};
-use crate::numeric::axes::{axes, dot};
+use crate::numeric::axes::{axes, dot, largest};
 use crate::numeric::error_free::{VeltkampSplit, two_sum};
 use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, LONGEST};
-use crate::scale::rays::{ScaledRays, largest};
+use crate::scale::rays::ScaledRays;
 
 /// The rays of a packet, prepared, in registers.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,7 @@ pub(super) const WORTH_IT: f32 = 8.0;
 pub(crate) const ABSOLUTE_ERROR: f32 = 8.0;
 /// The ray's pad of a slab is so many times the absolute error.
 pub(crate) const PADS: f32 = 2.0;
-/// 2^-58.
+/// 2^-58: the part of the absolute error that covers what underflows.
 const LEAST_ERROR: f32 = 1.0 / (1_u64 << 58) as f32;
 
 impl<L: Lanes> PreparedLanes<L> {

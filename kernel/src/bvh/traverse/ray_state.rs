@@ -202,7 +202,7 @@ impl RayState {
             let interval = probe.root_interval::<SPREADS>(&leaf.columns, part);
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
             let mut candidates =
-                interval.contenders::<Q>(leaf.lanes >> (part * L::COUNT), self.best);
+                interval.candidates::<Q>(leaf.lanes >> (part * L::COUNT), self.best);
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize;
                 candidates &= candidates - 1;

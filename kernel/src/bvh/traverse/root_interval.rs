@@ -19,10 +19,9 @@
 use crate::bvh::leaf::Leaf;
 use crate::geometry::sphere_columns::SphereColumns;
 use crate::lanes::{LaneMask, Lanes, WIDTH};
-use crate::numeric::axes::axes;
+use crate::numeric::axes::{axes, largest};
 use crate::numeric::rounding::{LEAST_COMPONENT, least};
 use crate::query::Query;
-use crate::scale::rays::largest;
 
 /// Between which s spheres are hit.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +42,7 @@ impl<L: Lanes> RootInterval<L> {
     /// hit, where there are many, a candidate is left out if another is surely closer. (Each candidate is a branch that cannot
     /// be predicted: among nested spheres these took a quarter of a ray's time.)
     #[inline(always)]
-    pub(crate) fn contenders<Q: Query>(&self, among: u32, best: f32) -> u32 {
+    pub(crate) fn candidates<Q: Query>(&self, among: u32, best: f32) -> u32 {
         let candidates = self.candidates.bits() & among;
         if Q::ANY || candidates.count_ones() < MANY {
             return candidates;
@@ -272,7 +271,7 @@ mod tests {
                 bound: f32x16::load((), &bound),
             };
             let candidates = mask & among;
-            assert_eq!(interval.contenders::<AnyHit>(among, best), candidates);
+            assert_eq!(interval.candidates::<AnyHit>(among, best), candidates);
 
             let those = |lane: &usize| candidates >> lane & 1 == 1;
             let limit = (0..16).filter(those).map(|lane| bound[lane]).fold(best, f32::min);
@@ -280,7 +279,7 @@ mod tests {
             let kept = kept.fold(0, |bits, lane| bits | 1 << lane);
             let is_many = candidates.count_ones() >= MANY;
             let expected = if is_many { kept } else { candidates };
-            assert_eq!(interval.contenders::<ClosestHit>(among, best), expected);
+            assert_eq!(interval.candidates::<ClosestHit>(among, best), expected);
             many += usize::from(is_many && kept != candidates);
             equal += usize::from((0..16).any(|lane| kept >> lane & 1 == 1 && entry[lane] == limit));
         }

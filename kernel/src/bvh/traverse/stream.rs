@@ -58,7 +58,7 @@ use crate::Accuracy;
 use crate::bvh::node::FRAMES;
 use crate::bvh::tree::Bvh;
 use crate::count::count;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::Lanes;
 use crate::query::Query;
 

@@ -28,7 +28,7 @@ use crate::Accuracy;
 use crate::bvh::prefetch;
 use crate::bvh::tree::Bvh;
 use crate::count::count;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::{LaneArray, Lanes};
 use crate::query::Query;
 use core::hint::black_box;

@@ -2,7 +2,8 @@
 
 use super::grid::{Grid, Space};
 use crate::geometry::many::ManyRays;
-use crate::geometry::ray::{Ray, RayPacket};
+use crate::geometry::ray::Ray;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::Lanes;
 use glam::Vec3;
 

@@ -1,7 +1,7 @@
 //! Tiles of a camera's picture: packets that are made where they are traced.
 
 use super::{Camera, Projection};
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::{LaneArray, Lanes};
 use crate::numeric::axes::axes;
 use crate::numeric::rounding::U;

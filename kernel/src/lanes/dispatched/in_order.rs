@@ -13,11 +13,7 @@ pub(super) fn bits<S: Simd>(token: S, bits: u32, order: u64) -> u32 {
         _ => {}
     }
     let _ = token;
-    let mut ordered = 0;
-    for place in 0..16 {
-        ordered |= (bits >> (order >> (4 * place) & 15) & 1) << place;
-    }
-    ordered
+    crate::lanes::ordered(bits, order)
 }
 
 /// [`Lanes::le_in_order`](crate::Lanes::le_in_order): lanes change places before they become bits, which makes a shorter chain of steps.

@@ -218,7 +218,7 @@ joined! {
         let [a, b] = doubles.0;
         let singles = DoubleLanes::token(doubles).narrow_f64x4(a, b).to_array();
         // Not `copy_from_slice`, which is a call in a build without link-time optimisation.
-        let (first, mut lane) = (part * 8 % 16, 0);
+        let (first, mut lane) = (part.wrapping_mul(8) % 16, 0);
         while lane < 8 {
             array[first + lane] = singles[lane];
             lane += 1;
@@ -266,7 +266,7 @@ joined! {
         let [a, b, c, d] = doubles.0;
         let token = DoubleLanes::token(doubles);
         let (low, high) = (token.narrow_f64x2(a, b).to_array(), token.narrow_f64x2(c, d).to_array());
-        let (first, mut lane) = (part * 8 % 16, 0);
+        let (first, mut lane) = (part.wrapping_mul(8) % 16, 0);
         while lane < 4 {
             array[first + lane] = low[lane];
             array[first + 4 + lane] = high[lane];

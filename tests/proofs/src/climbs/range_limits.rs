@@ -72,7 +72,7 @@ fn the_raise_covers_the_error_of_the_discriminant() {
 }
 
 /// The margin's slack: the search finds at most 0.18 of it, so a quarter holds and an eighth fails.
-/// The error of b, 4v |d| |p|, and the few v of r |d| and limit a are counted at their largest and
+/// The error of b, 4u |d| |p|, and the few u of r |d| and limit a are counted at their largest and
 /// together, then doubled, against a sum in which |p|_1 stands for |p|.
 #[test]
 fn the_margin_covers_roots_at_the_limit() {

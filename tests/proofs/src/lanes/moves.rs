@@ -1,8 +1,8 @@
-//! What moves lanes - masks, compression, another order, the greatest - against plain loops: every
+//! What moves lanes - masks, compression, another order, parts, the greatest - against plain loops: every
 //! width of `wide`, and the lanes that are chosen at run time at every level of this CPU. (What
 //! computes is tested in `bit_for_bit.rs`, and by the traversals.)
 
-use crate::lanes::{LaneArray, LaneMask, Lanes};
+use crate::lanes::{DoubleLanes, LaneArray, LaneMask, Lanes};
 use crate::proofs::climb::Random;
 use crate::{f32x4, f32x8, f32x16};
 use std::vec::Vec;
@@ -97,12 +97,36 @@ fn moves<L: Lanes>(token: L::Token) {
     }
 }
 
+/// A part past the last is one of the parts, and a bit past the last one of the bits, however large the number.
+fn wraps<L: Lanes>(token: L::Token) {
+    let sixteen = core::array::from_fn(|number| number as f32);
+    let lanes = L::load_part(token, &sixteen, usize::MAX);
+    let last = lanes.store();
+    assert_eq!(last.as_ref(), &sixteen[16 - L::COUNT..]);
+    let mut copy = [0.0; 16];
+    last.put_part(&mut copy, usize::MAX);
+    assert_eq!(copy[16 - L::COUNT..], sixteen[16 - L::COUNT..]);
+
+    let mut back = L::Array::ZEROS;
+    L::narrow(&mut back, usize::MAX, lanes.widen(usize::MAX));
+    let from = L::COUNT - L::Double::COUNT;
+    assert_eq!(back.as_ref()[from..], last.as_ref()[from..]);
+
+    // The order that leaves each bit where it is, and a multiple of 32.
+    let bits = lanes.le_in_order(lanes, usize::MAX - 31, 0xfedc_ba98_7654_3210);
+    assert_eq!(bits, ((1_u64 << L::COUNT) - 1) as u32);
+}
+
 #[test]
 fn lanes_of_the_build() {
     moves::<f32>(());
+    wraps::<f32>(());
     moves::<f32x4>(());
+    wraps::<f32x4>(());
     moves::<f32x8>(());
+    wraps::<f32x8>(());
     moves::<f32x16>(());
+    wraps::<f32x16>(());
 }
 
 #[cfg(feature = "std")]
@@ -113,8 +137,11 @@ fn lanes_of_every_level() {
     // However many registers there are, on each CPU.
     fn sixteen<S: Simd>(token: S) {
         moves::<f32x16<S>>(token);
+        wraps::<f32x16<S>>(token);
         moves::<Joined<f32x8<S>, 2>>(token);
+        wraps::<Joined<f32x8<S>, 2>>(token);
         moves::<Joined<f32x4<S>, 4>>(token);
+        wraps::<Joined<f32x4<S>, 4>>(token);
     }
     let widest = fearless_simd::Level::new();
     fearless_simd::dispatch!(widest, token => sixteen(token));

@@ -6,7 +6,7 @@
 use super::sharing::Sharing;
 use super::{QueuedRay, StreamMemory, StreamRay};
 use crate::bvh::tree::Bvh;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::memory::lengthen;
 use crate::query::Query;
 use alloc::vec::Vec;

@@ -69,7 +69,7 @@ impl<T: Accuracy, L: Lanes, Q: Query> Stream<'_, '_, T, L, Q> {
             let interval = probe.root_interval::<SPREADS>(&leaf.columns, part);
             let (entries, bounds) = (interval.entry.store(), interval.bound.store());
             let mut candidates =
-                interval.contenders::<Q>(leaf.lanes >> (part * L::COUNT), ray.best);
+                interval.candidates::<Q>(leaf.lanes >> (part * L::COUNT), ray.best);
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize;
                 candidates &= candidates - 1;

@@ -11,7 +11,7 @@
 //! as ray by ray when the first eighth decided for all. Now they take 1.04 to 1.4 times as long, mostly because of the sample of
 //! diffuse rays.
 
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::LaneArray;
 use glam::Vec3;
 

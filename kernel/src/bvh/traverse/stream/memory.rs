@@ -46,8 +46,8 @@ impl<'m> StreamMemory<'m> {
     /// # Ok::<(), spherule_kernel::TooSmall>(())
     /// ```
     pub fn new(rays: &'m mut [StreamRay], queues: &'m mut [QueuedRay]) -> Result<Self, TooSmall> {
-        TooSmall::check(WIDTH, rays.len())?;
-        TooSmall::check(Self::queues_needed(rays.len()), queues.len())?;
+        TooSmall::check("rays", WIDTH, rays.len())?;
+        TooSmall::check("queues", Self::queues_needed(rays.len()), queues.len())?;
         Ok(Self { rays, queues, everywhere: false })
     }
 

@@ -64,7 +64,7 @@ use super::seen::Seen;
 use crate::bvh::traverse::small_tree;
 use crate::bvh::traverse::wavefront::Entered;
 use crate::bvh::tree::Bvh;
-use crate::geometry::ray::RayPacket;
+use crate::geometry::ray_packet::RayPacket;
 use crate::lanes::LaneArray;
 use crate::query::Query;
 
