@@ -109,6 +109,7 @@ fn orders_are_what_they_are_called() {
     assert_eq!(neighbours(Order::Bursts16, origin), 4096 - 256);
     assert_eq!(neighbours(Order::Bursts1000, origin), 4095 - 4);
     assert_eq!(neighbours(Order::TwoCameras, origin), 0);
+    assert!((1900..2200).contains(&neighbours(Order::TwoCamerasShuffled, origin)));
     assert_eq!(neighbours(Order::Alternating64, origin), 32 * 63);
     assert_eq!(neighbours(Order::HalfAndHalf, origin), 2047);
     assert!(neighbours(Order::SortedByDirection, direction) > 3600);

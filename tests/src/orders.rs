@@ -12,7 +12,7 @@
 //! | scan lines | a camera's, line by line |
 //! | shuffled, reversed | a camera's, in other orders |
 //! | sorted by direction | [`Order::Diffuse`], neighbours in direction one after the other |
-//! | two cameras | from two sides, ray by ray in turns |
+//! | two cameras; shuffled | from two sides, ray by ray in turns; the same, in no order |
 //! | half and half | a camera's scan lines, then diffuse rays |
 //! | 64 and 64 | the same, 64 at a time in turns |
 //! | bursts | so many from one origin in nearly one direction, then from elsewhere |
@@ -30,7 +30,7 @@ mod rays;
 
 pub use extent::Extent;
 
-use rays::Rays;
+use rays::{Rays, in_turns};
 use spherule_kernel::{Ray, Spheres};
 use spherule_referee::random::Random;
 
@@ -60,11 +60,12 @@ pub enum Order {
     AllAround,
     Diffuse,
     Bounces,
+    TwoCamerasShuffled,
 }
 
 impl Order {
     /// Each in its place, with its name in tables.
-    const NAMED: [(Self, &'static str); 22] = [
+    const NAMED: [(Self, &'static str); 23] = [
         (Self::Beam, "beam"),
         (Self::NearlyParallel, "nearly parallel"),
         (Self::ToALight, "to a light"),
@@ -87,11 +88,12 @@ impl Order {
         (Self::AllAround, "all around"),
         (Self::Diffuse, "diffuse"),
         (Self::Bounces, "bounces"),
+        (Self::TwoCamerasShuffled, "two cameras, shuffled"),
     ];
 
     /// All of them.
-    pub const ALL: [Self; 22] = {
-        let (mut all, mut place) = ([Self::Beam; 22], 0);
+    pub const ALL: [Self; 23] = {
+        let (mut all, mut place) = ([Self::Beam; 23], 0);
         while place < all.len() {
             all[place] = Self::NAMED[place].0;
             place += 1;
@@ -138,10 +140,7 @@ impl Order {
             Self::Shuffled => rays.camera_shuffled(count, 2.0),
             Self::Reversed => rays.camera(count, false).into_iter().rev().collect(),
             Self::SortedByDirection => rays::sorted_by_direction(rays.diffuse(count)),
-            Self::TwoCameras => {
-                let (one, other) = (rays.camera(half, false), rays.camera(half, true));
-                in_turns([one, other], 1, count)
-            }
+            Self::TwoCameras => rays.two_cameras(count, half),
             Self::HalfAndHalf => {
                 let mut both = rays.camera(half, false);
                 both.extend(rays.diffuse(count - half));
@@ -167,14 +166,10 @@ impl Order {
             Self::AllAround => rays.all_around(count),
             Self::Diffuse => rays.diffuse(count),
             Self::Bounces => rays.bounces(spheres, count),
+            Self::TwoCamerasShuffled => {
+                let both = rays.two_cameras(count, half);
+                rays.shuffled(both)
+            }
         }
     }
-}
-
-/// Takes `run` rays of the first, `run` of the second, and so on, each time from where it stopped.
-fn in_turns(both: [Vec<Ray>; 2], run: usize, count: usize) -> Vec<Ray> {
-    let [mut one, mut other] = both.map(Vec::into_iter);
-    let turn =
-        |place: usize| if (place / run).is_multiple_of(2) { one.next() } else { other.next() };
-    (0..count).map_while(turn).collect()
 }

@@ -66,6 +66,19 @@ impl Rays<'_> {
         (0..count).map(ray).collect()
     }
 
+    /// Rays of two cameras by turns, of each `half` or fewer.
+    pub(super) fn two_cameras(&mut self, count: usize, half: usize) -> Vec<Ray> {
+        in_turns([self.camera(half, false), self.camera(half, true)], 1, count)
+    }
+
+    /// The rays in no order, each as likely in any place (Fisher and Yates).
+    pub(super) fn shuffled(&mut self, mut rays: Vec<Ray>) -> Vec<Ray> {
+        for last in (1..rays.len()).rev() {
+            rays.swap(last, self.random.integer(0, last as i64) as usize);
+        }
+        rays
+    }
+
     /// Random pixels of a camera `distance` scene sizes away.
     pub(super) fn camera_shuffled(&mut self, count: usize, distance: f64) -> Vec<Ray> {
         let camera = Camera::new(self.extent, ASLANT.map(|x| -2.0 * distance * x));
@@ -186,4 +199,12 @@ pub(super) fn sorted_by_direction(mut rays: Vec<Ray>) -> Vec<Ray> {
 
 fn ray(origin: Point, direction: Point) -> Ray {
     Ray::new(single(origin), single(direction))
+}
+
+/// Takes `run` rays of the first, `run` of the second, and so on, each time from where it stopped.
+pub(super) fn in_turns(both: [Vec<Ray>; 2], run: usize, count: usize) -> Vec<Ray> {
+    let [mut one, mut other] = both.map(Vec::into_iter);
+    let turn =
+        |place: usize| if (place / run).is_multiple_of(2) { one.next() } else { other.next() };
+    (0..count).map_while(turn).collect()
 }
