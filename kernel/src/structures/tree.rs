@@ -1,4 +1,7 @@
 //! The traversals of a tree.
+//!
+//! Without optimisation every ray goes by itself: the code for many keeps each of its values in a place of its own, and takes more stack
+//! than a thread has.
 
 #[cfg(not(feature = "std"))]
 use super::of_the_build;
@@ -47,7 +50,8 @@ impl Traverse for Bvh<'_> {
     fn goes_one_by_one(&self, trace: &Trace<'_>, rays: &ManyRays<'_>, range: Range<usize>) -> bool {
         let count = range.end.saturating_sub(range.start);
         let leaves_held = |asked: &Asked| leaves_held(trace.level, self, asked);
-        count <= ONE_BY_ONE
+        cfg!(unoptimised)
+            || count <= ONE_BY_ONE
             || (count <= few_rays::few(self) * RayPacket::COUNT
                 && !small_tree::is_listed(self)
                 && (trace.coherence == Coherence::Incoherent
@@ -75,7 +79,13 @@ impl Traverse for Bvh<'_> {
         answers: &mut [Q::Packet<[f32; 16]>],
     ) {
         #[cfg(feature = "std")]
-        {
+        if cfg!(unoptimised) {
+            answers.fill(Q::none::<[f32; 16]>());
+            let of_bits = u64::BITS as usize;
+            for (rays, answers) in rays.chunks(of_bits).zip(answers.chunks_mut(of_bits)) {
+                one_by_one::<Q>(self, tier, trace, (&[], rays, u64::MAX), answers);
+            }
+        } else {
             let (mut alone, source) = (0, PacketSource::Packets(rays));
             let level = trace.level;
             let ways =

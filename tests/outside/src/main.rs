@@ -165,6 +165,9 @@ fn main() {
     let (few, many) = (cloud(64, 0.1), cloud(10_000, 0.02));
     let tree = SphereTree::new(many.clone());
     stack_suffices(&tree);
+    if std::env::args().nth(1).is_some_and(|argument| argument == "stack") {
+        return;
+    }
     let mut memory = vec![0.0; DepthList::needed(many.len())];
     let mut scratch = vec![0.0; DepthList::scratch(many.len())];
     let sorted = DepthList::sort(many.spheres(), Viewpoint::Origin(EYE), &mut memory)
