@@ -73,6 +73,11 @@ pub(crate) fn check(
         Promise::Nothing => {}
         Promise::SameBits(other) | Promise::SameButFalseHits(other) => {
             let truth = answers(&mut *other(&few.rays), Query::ClosestHit);
+            if truth.iter().all(Option::is_none) {
+                let spheres: Vec<_> = scene.spheres.spheres().iter().collect();
+                let hits = own.truth(&spheres, exact).iter().flatten().count();
+                assert_eq!(hits, 0, "{name}: {hits} rays hit, and none of those that are compared");
+            }
             let mut run = (engine.ready)(&few.rays);
             let [closest, any] = Query::ALL.map(|query| answers(&mut *run, query));
             let may_lose = matches!(engine.promise, Promise::SameButFalseHits(_));
@@ -155,99 +160,15 @@ fn near(
         (Some(hit), Some(truth)) => hit.sphere == truth.sphere && is_near(ray, hit.t, truth),
         (hit, truth) => hit.is_none() && truth.is_none(),
     };
-    let differ = (0..truth.len()).filter(|&ray| !agree(ray)).count();
-    let others = any.iter().zip(truth).filter(|(any, truth)| any.is_some() != truth.is_some());
-    let (others, most) = (others.count(), (wrong * truth.len() as f64) as usize);
-    assert!(differ.max(others) <= most, "{name}: {differ} closest hits, {others} any hits differ");
+    let rays = truth.len();
+    let closest = (0..rays).filter(|&ray| !agree(ray)).count();
+    let any = any.iter().zip(truth).filter(|(any, truth)| any.is_some() != truth.is_some());
+    let (any, most) = (any.count(), (wrong * rays as f64) as usize);
+    assert!(
+        closest.max(any) <= most,
+        "{name}: of {rays} rays {closest} closest hits, {any} any hits differ; {most} may"
+    );
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::engine::kernel::{Kernel, Way};
-    use crate::measure::checked;
-    use spherule_kernel::{Level, Tier, Vec3};
-    use spherule_tests::scenes::small;
-    use std::panic::{AssertUnwindSafe, catch_unwind};
-
-    /// Answers that no ray hits anything.
-    struct Blind(usize);
-
-    impl Run for Blind {
-        fn run(&mut self, _: Query) {}
-
-        fn hits(&self) -> Vec<Option<Hit>> {
-            vec![None; self.0]
-        }
-    }
-
-    /// In other units, too, brute force is held to the tree, and that to the oracle, which does not see every ray.
-    #[test]
-    fn a_wrong_truth_is_seen_in_every_unit() {
-        for scale in [[0, 0], [100, 0], [0, -51]] {
-            let scene = Scene::uniform(500, 16).scaled(scale);
-            let kernel = Kernel::new(&scene, &scene.tree());
-            let all = kernel.ways(Kind::Primary, &[Level::best()], &[Tier::Exact]);
-            let mut brute_force = all.into_iter().next().expect("the first way");
-            assert_eq!(brute_force.label.way, Way::BruteForce.as_str());
-            let passes = |engine: &Engine, exact: &Ready| {
-                let asked = (&scene, Kind::Primary);
-                let check = || drop(checked(asked, &[engine], exact, usize::MAX));
-                catch_unwind(AssertUnwindSafe(check)).is_ok()
-            };
-            let blind = || -> Ready { Box::new(|rays| Box::new(Blind(rays.list.len()))) };
-            assert!(passes(&brute_force, &kernel.truth()), "{scale:?}");
-            assert!(!passes(&brute_force, &blind()), "{scale:?}: the tree");
-            brute_force.ready = blind();
-            assert!(!passes(&brute_force, &kernel.truth()), "{scale:?}: brute force");
-        }
-    }
-
-    #[test]
-    fn a_wrong_answer_is_seen() {
-        let scene = small::cube("64", 64);
-        for kind in Kind::ALL {
-            let all = WithTruth::few((&scene, kind));
-            let spheres: Vec<_> = scene.spheres.spheres().iter().collect();
-            let truth = all.truth(&spheres, &Kernel::new(&scene, &scene.tree()).truth());
-            let hits = truth.iter().flatten().count();
-            assert!((40..900).contains(&hits), "{hits} rays of 1024 hit something");
-            let passes = |change: fn(Hit) -> Option<Hit>, (wrong, ulp)| {
-                let is_near = move |_, t, truth: Hit| ulp_between(t, truth.t) <= ulp;
-                let bounds = (wrong, is_near);
-                let own: Vec<_> = truth.iter().map(|hit| hit.and_then(change)).collect();
-                let any = catch_unwind(|| near(truth, &own, truth, bounds, "")).is_ok();
-                let same = catch_unwind(|| same_bits(&own, truth, truth, |_, _| false, "")).is_ok();
-                [catch_unwind(|| near(&own, truth, truth, bounds, "")).is_ok(), any, same]
-            };
-            let (textbook, exact) = ((8.0 / 1024.0, 1 << 13), (0.0, 0));
-            assert_eq!(passes(Some, exact), [true, true, true]);
-            assert_eq!(passes(|_| None, textbook), [false, false, false]);
-            let another = |hit: Hit| Some(Hit { sphere: hit.sphere + 1, ..hit });
-            assert_eq!(passes(another, textbook), [false, true, false]);
-            let stretched = |hit: Hit| Some(Hit { t: hit.t * 1.01, ..hit });
-            assert_eq!(passes(stretched, textbook), [false, true, false]);
-            let next = |hit: Hit| Some(Hit { t: hit.t.next_up(), ..hit });
-            assert_eq!(passes(next, exact), [false, true, false]);
-            assert_eq!(passes(next, textbook), [true, true, false]);
-        }
-    }
-
-    #[test]
-    fn a_false_hit_alone_may_be_lost() {
-        let ray = Ray::new(Vec3::ZERO, Vec3::Z);
-        let spheres = [[0.0, 0.0, 5.0, 1.0], [3.0, 0.0, 5.0, 1.0]].map(Sphere::from);
-        for (sphere, is_false) in [(0, false), (1, true)] {
-            let truth = [Some(Hit { t: 4.0, sphere })];
-            let may_be_lost = |_: usize, hit: Hit| is_missed(&ray, spheres[hit.sphere as usize]);
-            let passes = |answer: [Option<Hit>; 1]| {
-                let check = || same_bits(&answer, &answer, &truth, may_be_lost, "");
-                catch_unwind(check).is_ok()
-            };
-            assert_eq!([passes(truth), passes([None])], [true, is_false]);
-            // Where there was no hit, none may be found.
-            let found = catch_unwind(|| same_bits(&truth, &truth, &[None], may_be_lost, ""));
-            assert!(found.is_err());
-        }
-    }
-}
+mod tests;

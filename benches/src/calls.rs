@@ -10,10 +10,11 @@ use crate::agreement::{WithTruth, check};
 use crate::builds::Trees;
 use crate::engine::kernel::{Kernel, levels};
 use crate::engine::{Engine, Query, Rays};
+use crate::left_out::LeftOut;
 use crate::measure::{Effort, large_scenes};
 use crate::rounds::{Median, Sampler, Samples};
 use spherule_kernel::{Level, LevelName, SphereTree};
-use spherule_tests::scenes::{Kind, Size};
+use spherule_tests::scenes::{Kind, Scene, Size};
 use std::cell::RefCell;
 use std::time::Duration;
 
@@ -44,38 +45,46 @@ pub(crate) struct Calls {
 }
 
 /// Measures all scenes, or `one` alone.
-pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Calls {
+pub(crate) fn measure(effort: Effort, one: Option<&str>, left_out: &LeftOut) -> Calls {
     let (size, rays, time, rounds) = match effort {
         Effort::Test => (Size::SMALL, 256, 0, 1),
         Effort::Quick => (Size::FULL, 1 << 13, 150, 5),
         Effort::Full => (Size::FULL, 1 << 14, 1000, 9),
     };
+    let plan = (Duration::from_millis(time), rounds);
     let mut all = Calls { rows: Vec::new(), refits: Vec::new() };
     for scene in large_scenes(one, size) {
         eprintln!("calls, {}", scene.name);
-        let levels = levels();
-        let trees = Trees::build(&scene, false, &levels);
-        let exact = Kernel::new(&scene, &trees.ours).truth();
-        for kind in Kind::ALL {
-            let some = WithTruth::new((&scene, kind), rays);
-            for &level in &levels {
-                let mut engines = trees.embree(level);
-                engines.retain(|engine| engine.label.name == ONE_RAY);
-                for &engine in &engines {
-                    let mut run = (engine.ready)(&some.rays);
-                    check((&scene, engine), (&some, &some), &mut *run, &exact);
-                }
-                for query in Query::ALL {
-                    let asked = (scene.name, kind, query, level);
-                    let plan = (Duration::from_millis(time), rounds);
-                    let row = Row::measure(asked, &trees.ours, &engines, &some.rays, plan);
-                    all.rows.push(row);
-                }
-            }
+        let measure = || (of_scene(&scene, rays, plan), Refit::measure(&scene, rounds));
+        if let Some((rows, refit)) = left_out.unless_wrong(scene.name, measure) {
+            all.rows.extend(rows);
+            all.refits.push(refit);
         }
-        all.refits.push(Refit::measure(&scene, rounds));
     }
     all
+}
+
+fn of_scene(scene: &Scene, rays: usize, plan: (Duration, usize)) -> Vec<Row> {
+    let levels = levels();
+    let trees = Trees::build(scene, false, &levels);
+    let exact = Kernel::new(scene, &trees.ours).truth();
+    let mut rows = Vec::new();
+    for kind in Kind::ALL {
+        let some = WithTruth::new((scene, kind), rays);
+        for &level in &levels {
+            let mut engines = trees.embree(level);
+            engines.retain(|engine| engine.label.name == ONE_RAY);
+            for &engine in &engines {
+                let mut run = (engine.ready)(&some.rays);
+                check((scene, engine), (&some, &some), &mut *run, &exact);
+            }
+            for query in Query::ALL {
+                let asked = (scene.name, kind, query, level);
+                rows.push(Row::measure(asked, &trees.ours, &engines, &some.rays, plan));
+            }
+        }
+    }
+    rows
 }
 
 impl Row {

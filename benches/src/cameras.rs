@@ -4,6 +4,7 @@ use crate::agreement::{WithTruth, check};
 use crate::builds::Trees;
 use crate::engine::kernel::{Kernel, levels};
 use crate::engine::{BLOCK, Query, Rays};
+use crate::left_out::LeftOut;
 use crate::measure::{Effort, large_scenes};
 use crate::rounds::{Median, Sampler, Samples, timed};
 use spherule_kernel::{
@@ -48,7 +49,7 @@ pub(crate) struct OfScene {
 }
 
 /// Measures the pictures of all large scenes, or of `one` alone.
-pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Vec<OfScene> {
+pub(crate) fn measure(effort: Effort, one: Option<&str>, left_out: &LeftOut) -> Vec<OfScene> {
     let (size, blocks, rounds) = match effort {
         Effort::Test => (Size::SMALL, 1, 1),
         Effort::Quick => (Size::FULL, 16, 5),
@@ -56,9 +57,9 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Vec<OfScene> {
     };
     let of_scene = |scene: Scene| {
         eprintln!("the camera of {}", scene.name);
-        OfScene::measure(&scene, blocks, rounds)
+        left_out.unless_wrong(scene.name, || OfScene::measure(&scene, blocks, rounds))
     };
-    large_scenes(one, size).map(of_scene).collect()
+    large_scenes(one, size).filter_map(of_scene).collect()
 }
 
 impl OfScene {

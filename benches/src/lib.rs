@@ -7,9 +7,10 @@
 //! | `cargo bench -p spherule-benches --features peers ...` | with other crates |
 //! | `... --features embree ... -- --write` | with other crates and Embree (Debian: `libembree3-3`); and writes `docs/benchmarks`, where all else is committed |
 //!
-//! Speed is written for one build at a time: run once more with `RUSTFLAGS="-C target-cpu=native"`. `--scene NAME` runs one large scene
-//! alone, `--order NAME` one order of rays, and `--rays N` calls of N rays. `--quick` takes a part of the rays; with `--scene` it takes
-//! less than a minute. `--test` runs everything once. The variable `SPHERULE_EMBREE` names the libraries of Embree to open: paths with
+//! The tiers' speed is written for one build at a time: run once more `RUSTFLAGS="-C target-cpu=native" cargo bench -p spherule-benches
+//! --bench report -- tiers --write`. The other pages are a plain build's, which has every level. `--scene NAME` runs one large scene
+//! alone; with `orders`, `--order NAME` one order of rays, and `--rays N` calls of N rays. `--quick` takes a part of the rays; with
+//! `--scene` it takes less than a minute. `--test` runs everything once. The variable `SPHERULE_EMBREE` names the libraries of Embree to open: paths with
 //! colons between them.
 //!
 //! Data flows one way: [scenes](spherule_tests::scenes), [engines](engine), [the check before the clock](agreement),
@@ -22,6 +23,7 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 mod agreement;
+mod arguments;
 mod builds;
 mod calls;
 mod cameras;
@@ -29,6 +31,7 @@ mod criterion_groups;
 mod engine;
 mod errors;
 mod forms;
+mod left_out;
 mod lists;
 mod measure;
 mod orders;

@@ -8,6 +8,7 @@ pub(crate) use ways::Way;
 use crate::builds::Trees;
 use crate::engine::kernel::levels;
 use crate::engine::{Engine, Query};
+use crate::left_out::LeftOut;
 use crate::measure::Effort;
 use crate::rounds::{Median, Sampler, Samples};
 use spherule_kernel::{Level, LevelName, Ray};
@@ -58,6 +59,7 @@ pub(crate) fn measure(
     effort: Effort,
     (one, order): (Option<&str>, Option<Order>),
     rays: Option<usize>,
+    left_out: &LeftOut,
 ) -> Vec<Row> {
     let (size, usual, rounds, milliseconds, nanoseconds) = match effort {
         Effort::Test => (Size::SMALL, 256, 1, 0, 0.0),
@@ -78,7 +80,8 @@ pub(crate) fn measure(
             SPREAD => Scene::spread(size),
             _ => Scene::large(name, size).expect("listed"),
         };
-        rows.extend(of_scene(&scene, order, plan));
+        let measured = left_out.unless_wrong(name, || of_scene(&scene, order, plan));
+        rows.extend(measured.into_iter().flatten());
     }
     rows
 }

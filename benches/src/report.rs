@@ -1,128 +1,107 @@
-//! The command line of the reports, and where they are written.
+//! What the reports measure, and where they are written.
 
+use crate::arguments::{Arguments, Part};
+use crate::left_out::LeftOut;
 use crate::measure::Effort;
-use crate::page::{self, build, origin};
+use crate::page::{self, build, maker, origin};
 use crate::{calls, cameras, errors, lists, orders, plot, scales, structures, surfaces};
-use clap::builder::PossibleValuesParser;
-use clap::{Parser, ValueEnum};
+use clap::Parser;
 use spherule_tests::orders::Order;
-use spherule_tests::scenes::{LARGE, SPREAD};
 use std::path::Path;
 use std::{error, fs};
 
-#[derive(Parser)]
-struct Arguments {
-    /// What is measured; all unless said.
-    part: Option<Part>,
-    /// One large scene alone; nothing is written.
-    #[arg(long, value_parser = PossibleValuesParser::new(LARGE.into_iter().chain([SPREAD])))]
-    scene: Option<String>,
-    /// One order of rays alone, in every scene that is chosen; nothing is written.
-    #[arg(long, value_parser = Order::ALL.map(Order::as_str))]
-    order: Option<String>,
-    /// Rays of a call, in rays in every order; nothing is written.
-    #[arg(long)]
-    rays: Option<usize>,
-    /// Writes docs/benchmarks.
-    #[arg(long)]
-    write: bool,
-    /// A first impression.
-    #[arg(long)]
-    quick: bool,
-    /// That everything runs; nothing is written.
-    #[arg(long)]
-    test: bool,
-    /// What cargo says to every benchmark.
-    #[arg(long, hide = true)]
-    bench: bool,
-}
+type Outcome = Result<(), Box<dyn error::Error>>;
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Part {
-    Tiers,
-    Structures,
-    Cameras,
-    Surfaces,
-    Orders,
-    Calls,
-    Scales,
-}
-
-/// Measures, prints, and writes the pages if `--write` is given.
+/// Measures, prints, and writes the pages if `--write` is given. A page that lacks a scene, since an answer was wrong, is not written.
 ///
 /// # Errors
-/// If a file cannot be written, or if pages would name no commit, or one at which they were not measured.
+/// If options do not go together, if a file cannot be written, if pages would name no commit, or one at which they were not measured, or if
+/// a page lacks a scene.
 ///
 /// # Panics
-/// If an answer is wrong.
-pub fn report() -> Result<(), Box<dyn error::Error>> {
-    let Arguments { part, scene, order, rays, write, quick, test, .. } = Arguments::parse();
-    let effort = match (test, quick) {
+/// If an answer is wrong, except of a large scene.
+pub fn report() -> Outcome {
+    let arguments = Arguments::parse();
+    if let Some(why) = arguments.refusal(build()) {
+        return Err(why.into());
+    }
+    let writes = arguments.writes();
+    if writes && let Some(why) = page::refusal(Path::new(".")) {
+        return Err(format!("--write: {why}").into());
+    }
+    let effort = match (arguments.test, arguments.quick) {
         (true, _) => Effort::Test,
         (_, true) => Effort::Quick,
         _ => Effort::Full,
     };
-    let writes = write && !test && scene.is_none() && order.is_none() && rays.is_none();
-    if writes && let Some(why) = page::refusal(Path::new(".")) {
-        return Err(format!("--write: {why}").into());
-    }
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/benchmarks");
-    let put = |name: &str, text: &str| -> Result<(), Box<dyn error::Error>> {
+    let mut lacks = Vec::new();
+    let mut put = |name: &str, text: &str, left_out: &LeftOut| -> Outcome {
+        let line = left_out.line();
         if name.ends_with(".md") {
             println!("{text}");
+            if let Some(line) = &line {
+                println!("{line}");
+                lacks.push(format!("{name}: {line}"));
+            }
         }
-        if writes {
+        if writes && line.is_none() {
             fs::create_dir_all(&folder)?;
             fs::write(folder.join(name), text)?;
         }
         Ok(())
     };
-    let origin = origin();
-    let chosen = |own| part.is_none_or(|part| part == own);
-    if chosen(Part::Tiers) && scene.is_none() {
+    let (origin, scene) = (origin(), arguments.scene.as_deref());
+    if arguments.chooses(Part::Tiers) && scene.is_none() {
         let (errors, lists) = (errors::measure(effort), lists::measure(effort));
         // Only in a native build do the marks have the CPU's instructions: a trade of any other build would flatter the
         // tiers.
         let trade = page::tiers::trade(&origin, &errors, &lists);
+        let all = LeftOut::default();
         match build() {
-            "native" => put("trade.md", &trade)?,
+            "native" => put("trade.md", &trade, &all)?,
             _ => println!("{trade}"),
         }
-        put("errors.md", &page::tiers::errors(&origin, &errors))?;
-        put(&format!("speed-{}.md", build()), &page::tiers::speed(&origin, &lists))?;
+        put("errors.md", &page::tiers::errors(&origin, &errors), &all)?;
+        let speed = page::tiers::speed((&origin, build()), &lists);
+        put(&format!("speed-{}.md", build()), &speed, &all)?;
     }
-    if chosen(Part::Structures) {
-        let results = structures::measure(effort, scene.as_deref());
-        put(
-            &format!("structures-{}.md", page::maker()),
-            &page::structures::page(&origin, &results),
-        )?;
-        if scene.is_none() {
-            put("growth.svg", &plot::growth(&origin, &results.growth)?)?;
-            put("embree.svg", &plot::embree(&origin, &results.scenes)?)?;
+    if arguments.chooses(Part::Structures) {
+        let left_out = LeftOut::default();
+        let results = structures::measure(effort, scene, &left_out);
+        let page = page::structures::page(&origin, &results);
+        put(&format!("structures-{}.md", maker()), &page, &left_out)?;
+        if scene.is_none() && left_out.line().is_none() {
+            put("growth.svg", &plot::growth(&origin, &results.growth)?, &left_out)?;
+            put("embree.svg", &plot::embree(&origin, &results.scenes)?, &left_out)?;
         }
     }
-    if chosen(Part::Cameras) {
-        let results = cameras::measure(effort, scene.as_deref());
-        put(&format!("cameras-{}.md", page::maker()), &page::cameras::page(&origin, &results))?;
+    if arguments.chooses(Part::Cameras) {
+        let left_out = LeftOut::default();
+        let page = page::cameras::page(&origin, &cameras::measure(effort, scene, &left_out));
+        put(&format!("cameras-{}.md", maker()), &page, &left_out)?;
     }
-    if chosen(Part::Surfaces) {
-        let results = surfaces::measure(effort, scene.as_deref());
-        put("surfaces.md", &page::surfaces::page(&origin, &results))?;
+    if arguments.chooses(Part::Surfaces) {
+        let left_out = LeftOut::default();
+        let page = page::surfaces::page(&origin, &surfaces::measure(effort, scene, &left_out));
+        put("surfaces.md", &page, &left_out)?;
     }
-    if chosen(Part::Orders) {
-        let order = order.as_deref().and_then(Order::named);
-        let rows = orders::measure(effort, (scene.as_deref(), order), rays);
-        put(&format!("orders-{}.md", page::maker()), &page::orders::page(&origin, &rows))?;
+    if arguments.chooses(Part::Orders) {
+        let left_out = LeftOut::default();
+        let chosen = (scene, arguments.order.as_deref().and_then(Order::named));
+        let rows = orders::measure(effort, chosen, arguments.rays, &left_out);
+        put(&format!("orders-{}.md", maker()), &page::orders::page(&origin, &rows), &left_out)?;
     }
-    if chosen(Part::Calls) {
-        let results = calls::measure(effort, scene.as_deref());
-        put("calls.md", &page::calls::page(&origin, &results))?;
+    if arguments.chooses(Part::Calls) {
+        let left_out = LeftOut::default();
+        let page = page::calls::page(&origin, &calls::measure(effort, scene, &left_out));
+        put("calls.md", &page, &left_out)?;
     }
-    if chosen(Part::Scales) && scene.is_none() {
-        put("scales.md", &page::scales::page(&origin, &scales::measure(effort)))?;
+    if arguments.chooses(Part::Scales) && scene.is_none() {
+        let page = page::scales::page(&origin, &scales::measure(effort));
+        put("scales.md", &page, &LeftOut::default())?;
     }
     let is_sound = spherule_kernel::float_environment_is_sound();
     assert!(is_sound, "something changed the floating-point environment");
-    Ok(())
+    if lacks.is_empty() { Ok(()) } else { Err(lacks.join(" ").into()) }
 }

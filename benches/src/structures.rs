@@ -3,6 +3,7 @@
 use crate::builds::{Builds, Trees};
 use crate::engine::kernel::{Kernel, Way, levels};
 use crate::engine::{Label, Query, Rays};
+use crate::left_out::LeftOut;
 use crate::measure::{Effort, Measured, Plan, large_scenes};
 use crate::rounds::{Median, Sampler, Samples};
 use spherule_kernel::{HitPacket, Intersect, Level, LevelName, SphereTree, Tier, Trace};
@@ -37,7 +38,7 @@ pub(crate) struct Structures {
 }
 
 /// Measures all scenes, or `one` alone.
-pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
+pub(crate) fn measure(effort: Effort, one: Option<&str>, left_out: &LeftOut) -> Structures {
     let levels = levels();
     // For growth: enough pixels to be timed, few enough for brute force to be shown; and the powers of ten.
     let (size, rays, seconds, rounds, builds, (pixels, most)) = match effort {
@@ -47,27 +48,29 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Structures {
     };
     let (time, sample) = (Duration::from_secs(seconds), Duration::ZERO);
     let plan = Plan { queries: &Query::ALL, time, rounds: rounds.clone(), rays, sample };
-    let of_scene = |scene: Scene| match (effort, one) {
+    let of_scene = |scene: &Scene| match (effort, one) {
         // Without other crates, and without the tiers that are no faster: so it takes less than a minute.
         (Effort::Quick, Some(_)) => {
-            OfScene::measure(&scene, None, (&levels, &[Tier::Stable, Tier::Exact]), &plan)
+            OfScene::measure(scene, None, (&levels, &[Tier::Stable, Tier::Exact]), &plan)
         }
-        _ => OfScene::measure(&scene, Some(builds), (&levels, &Tier::ALL), &plan),
+        _ => OfScene::measure(scene, Some(builds), (&levels, &Tier::ALL), &plan),
     };
     let growth = Plan { time: time.min(Duration::from_secs(3)), ..plan.clone() };
     let step = |power| {
         let scene = Scene::uniform(10_usize.pow(power), pixels);
-        OfScene::measure(&scene, None, (&levels[..1], &[Tier::Stable]), &growth)
+        let measure = || OfScene::measure(&scene, None, (&levels[..1], &[Tier::Stable]), &growth);
+        left_out.unless_wrong(scene.name, measure)
     };
+    let unless_wrong = |scene: Scene| left_out.unless_wrong(scene.name, || of_scene(&scene));
     let threads = || {
         let scene = Scene::large(FOR_THREADS, size).expect("listed");
         two_threads_by_one(&scene, levels[0], *rounds.end())
     };
     Structures {
         rays: (rays < usize::MAX).then_some(rays),
-        scenes: large_scenes(one, size).map(of_scene).collect(),
+        scenes: large_scenes(one, size).filter_map(unless_wrong).collect(),
         two_threads: one.is_none().then(threads).flatten(),
-        growth: (2..most).filter(|_| one.is_none()).map(step).collect(),
+        growth: (2..most).filter(|_| one.is_none()).filter_map(step).collect(),
     }
 }
 

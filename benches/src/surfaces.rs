@@ -1,6 +1,7 @@
 //! What a picture needs beyond hits: surfaces, and shadow rays from them.
 
 use crate::engine::Rays;
+use crate::left_out::LeftOut;
 use crate::measure::{Effort, large_scenes};
 use crate::rounds::{Median, Sampler, Samples, timed};
 use spherule_kernel::{
@@ -38,7 +39,7 @@ pub(crate) struct OfRays {
 const LIGHT: Vec3 = Vec3::new(0.4, 0.8, 0.45);
 
 /// Measures all large scenes, or `one` alone: primary rays by coherent packets, diffuse ones ray by ray.
-pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Vec<OfRays> {
+pub(crate) fn measure(effort: Effort, one: Option<&str>, left_out: &LeftOut) -> Vec<OfRays> {
     let (size, rounds) = match effort {
         Effort::Test => (Size::SMALL, 1),
         Effort::Quick => (Size::FULL, 3),
@@ -47,9 +48,10 @@ pub(crate) fn measure(effort: Effort, one: Option<&str>) -> Vec<OfRays> {
     let of_scene = |scene: Scene| {
         eprintln!("surfaces of {}", scene.name);
         let tree = SphereTree::new((*scene.spheres).clone());
-        Kind::ALL.map(|kind| OfRays::measure(&scene, kind, &tree, rounds))
+        let measure = || Kind::ALL.map(|kind| OfRays::measure(&scene, kind, &tree, rounds));
+        left_out.unless_wrong(scene.name, measure)
     };
-    large_scenes(one, size).flat_map(of_scene).collect()
+    large_scenes(one, size).filter_map(of_scene).flatten().collect()
 }
 
 impl OfRays {

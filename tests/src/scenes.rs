@@ -252,7 +252,7 @@ pub fn sample(rays: &[Ray], count: usize) -> Vec<Ray> {
     let runs = (count / RUN).max(1);
     let stride = rays.len() / runs;
     // A run starts anywhere in its stretch, by the golden ratio. At the same place in each, all runs would be of one column of a picture.
-    let within = |run: usize| (run as f64 * 0.618_034).fract() * (stride - RUN) as f64;
+    let within = |run: usize| ((run + 1) as f64 * 0.618_034).fract() * (stride - RUN) as f64;
     let start = |run: usize| run * stride + within(run) as usize / RUN * RUN;
     (0..runs).flat_map(|run| rays[start(run)..].iter().take(RUN)).copied().collect()
 }

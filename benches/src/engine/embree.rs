@@ -125,16 +125,12 @@ pub(crate) fn engines(embree: &Rc<Embree>) -> Vec<Engine> {
     let engine = |call: Call| {
         let lanes = embree.level.as_str();
         let label = Label { way: &embree.library.name, name: call.name, lanes };
-        let promise = match embree.level {
-            LevelName::Baseline => Promise::OTHERS_UNFUSED,
-            _ => Promise::OTHERS,
-        };
         let embree = Rc::clone(embree);
         let ready = move |rays: &Rays| -> Box<dyn Run> {
             let (embree, rays) = (Rc::clone(&embree), Rc::clone(&rays.list));
             Box::new(Calls { embree, call, rays, hits: Vec::new() })
         };
-        Engine { label, promise, most_rays: usize::MAX, ready: Box::new(ready) }
+        Engine { label, promise: Promise::EMBREE, most_rays: usize::MAX, ready: Box::new(ready) }
     };
     let has_streams = embree.library.intersect_stream.is_some();
     calls(embree.level, has_streams).into_iter().map(engine).collect()

@@ -1,7 +1,7 @@
 //! The trial before the clock: checks every way's answers, on a few rays first, and drops the ways that are far behind.
 
 use super::ways::{Way, Work};
-use crate::engine::{Engine, Query, Rays};
+use crate::engine::{EMBREE_DIFFERS, Engine, Query, Rays};
 use crate::forms::Answer;
 use spherule_kernel::{Level, Ray};
 use spherule_tests::scenes::sample;
@@ -19,9 +19,6 @@ const NEAR: f64 = 1.6;
 const LEAST: usize = 1024;
 /// How many tests of brute force a check may cost.
 const TESTS: usize = 1 << 20;
-/// The share of rays, those that graze, on which another program may decide otherwise whether they hit. From far away it may lose all
-/// spheres if they are small, since it subtracts squares of the distance.
-const OTHERWISE: f64 = 4e-2;
 
 /// The ways that are shown however slow they are.
 const SHOWN: [Way; 3] = [Way::RayByRay, Way::Coherent, Way::Plain];
@@ -128,7 +125,8 @@ fn nearest(
             let differs = |(ray, hit): &(usize, bool)| *hit != truth[*ray].is_some();
             let hits = run.hits().into_iter().map(|hit| hit.is_some()).enumerate();
             let differ = hits.filter(differs).count() as f64;
-            let is_like_ours = is_far || differ <= OTHERWISE * count;
+            // From far away it may lose all spheres if they are small, since it subtracts squares of the distance.
+            let is_like_ours = is_far || differ <= EMBREE_DIFFERS * count;
             assert!(is_like_ours, "{name}: {} in {differ} rays", engine.label);
             (index, time)
         };

@@ -19,8 +19,8 @@ pub(crate) fn page(origin: &str, results: &Structures) -> String {
     let mut text = format!(
         "# Many spheres, {} build\n\n{origin}\n\nOne thread; medians of {} to {} interleaved rounds [quartiles] of the \
          thread's own time; ratios round by round. Before anything is timed, every way answers as brute force does, bit for \
-         bit, on a sample of the rays (`stable`, `exact`), and others answer as `exact` except in close calls. The kernel and \
-         Embree get {BLOCK} rays at a time, streams {STREAM}, which are brought into the cache outside the clock.{some} The \
+         bit, on a sample of the rays (`stable`, `exact`), and others answer as `exact` except in close calls. Other crates \
+         (obvhs, bvh, parry3d) have the build's own instructions, whatever the level. The kernel and Embree get {BLOCK} rays at a time, streams {STREAM}, which are brought into the cache outside the clock.{some} The \
          scenes: [scenes.rs](../../tests/src/scenes.rs).\n\n{}{}",
         build(),
         rounds().min().unwrap_or(0),
@@ -157,4 +157,18 @@ fn growth(steps: &[OfScene]) -> String {
          Growth: uniform spheres, a million rays a second, `stable`, closest hit; milliseconds a build.\n\n{}",
         table.0
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In a plain build those of the baseline, which is no level of theirs.
+    #[test]
+    fn the_page_tells_what_instructions_other_crates_have() {
+        let results =
+            Structures { rays: None, scenes: Vec::new(), two_threads: None, growth: Vec::new() };
+        let page = page("", &results);
+        assert!(page.contains("Other crates (obvhs, bvh, parry3d) have the build's own"), "{page}");
+    }
 }

@@ -1,6 +1,6 @@
 //! Speed against error of the tiers.
 
-use super::{Table, build, cell};
+use super::{Table, cell};
 use crate::engine::probes::{FILTER, FUSED, MIX, TEXTBOOK};
 use crate::engine::{Label, Query};
 use crate::errors::{Errors, NAMES, ulp, wrong_in_a_million};
@@ -80,7 +80,7 @@ fn by_regime(errors: &[Errors], cell: impl Fn(&Summary) -> String) -> String {
 }
 
 /// Times of one build.
-pub(crate) fn speed(origin: &str, lists: &[Measured]) -> String {
+pub(crate) fn speed((origin, build): (&str, &str), lists: &[Measured]) -> String {
     let names = lists.iter().map(name).collect::<Vec<_>>().join(" | ");
     let mut table = Table::new(2, &format!(" | lanes | {names}"));
     for label in lists[0].labels() {
@@ -96,14 +96,13 @@ pub(crate) fn speed(origin: &str, lists: &[Measured]) -> String {
         table.row(names.into_iter().chain(lists.iter().map(time)));
     }
     format!(
-        "# Speed of the tiers, {} build\n\n{origin}\n\nNanoseconds a ray-sphere test of brute force, one thread, medians of \
+        "# Speed of the tiers, {build} build\n\n{origin}\n\nNanoseconds a ray-sphere test of brute force, one thread, medians of \
          {} interleaved rounds; in brackets the time by that of `fast` in the same lanes and rounds. Levels have sixteen \
-         lanes.\n\n{}\nThe FMA limit of a textbook test is {TEXTBOOK} fused operations, the floor of the kernel's own filter \
-         {FILTER}.\n\n{}",
-        build(),
+         lanes.\n\n{}{}",
         lists[0].rounds(),
         table.0,
-        limit(lists)
+        // In any other build the levels have wider lanes than the probes.
+        if build == "native" { limit(lists) } else { String::new() }
     )
 }
 
@@ -126,5 +125,32 @@ fn limit(lists: &[Measured]) -> String {
             table.row(names.into_iter().chain(shares));
         }
     }
-    table.0
+    format!(
+        "\nThe FMA limit of a textbook test is {TEXTBOOK} fused operations, the floor of the kernel's own filter \
+         {FILTER}.\n\n{}",
+        table.0
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::kernel::Kernel;
+    use crate::measure::Plan;
+    use spherule_tests::scenes::{Kind, small};
+    use std::time::Duration;
+
+    #[test]
+    fn the_share_of_the_limit_is_a_native_build_s() {
+        let scene = small::cube("64", 64);
+        let (time, rounds, sample) = (Duration::ZERO, 1..=1, Duration::ZERO);
+        let plan = Plan { queries: &[QUERY], time, rounds, rays: usize::MAX, sample };
+        let truth = Kernel::new(&scene, &scene.tree()).truth();
+        let lists = [Measured::take((&scene, Kind::Primary), &[], &truth, &plan)];
+        for (build, has_limit) in [("plain", false), ("native", true)] {
+            let page = speed(("", build), &lists);
+            assert!(page.starts_with(&format!("# Speed of the tiers, {build} build\n")), "{page}");
+            assert_eq!(page.contains("FMA limit"), has_limit, "{page}");
+        }
+    }
 }
