@@ -1,15 +1,16 @@
 //! Every variant against one lane; and the rules of the contract, on the answers of the tier itself, which hold for any
 //! bits, in the tier's domain or not.
 
-use crate::{promise, surfaces, tiles};
+use crate::{objects, pairs, promise, surfaces, tiles};
 use spherule_kernel::{Hit, Ray, Sphere, Tier, Viewpoint, roots};
 use spherule_referee::bytes::AimedScene;
-use spherule_referee::case::Case;
 use spherule_tests::oracle::{accepted, is_closer};
 use spherule_tests::variants::{
-    Answers, Memory, Structure, Structures, Variant, bits, pair_layers, pairs_of, reference,
-    variants,
+    Answers, Memory, Structure, Structures, Variant, bits, reference, variants,
 };
+
+/// A tree of so many spheres has boxes, though a third of them are invalid. Smaller trees look into every leaf.
+const MANY: usize = 100;
 
 /// Judges everything that the kernel answers about a scene.
 ///
@@ -20,7 +21,8 @@ pub fn check(scene: &AimedScene) {
     let one_lane = Tier::ALL.map(|tier| OneLane::new(tier, scene));
     for OneLane { tier, hits, .. } in &one_lane {
         check_one_lane(*tier, scene, hits);
-        check_pairs(*tier, scene);
+        pairs::check(*tier, scene);
+        objects::check(*tier, scene, hits);
         surfaces::check(*tier, scene);
     }
     let Ray { origin, direction, .. } = rays[0];
@@ -33,7 +35,21 @@ pub fn check(scene: &AimedScene) {
     memory.sorted(Viewpoint::Direction(direction), |structures| {
         check_variants(lists, structures, scene, &one_lane);
     });
+    let many = with_copies(scene);
+    Memory::new(&many.spheres).sorted(Viewpoint::Origin(origin), |structures| {
+        use Structure::{Refitted, Stream, Tree};
+        let is_tree =
+            |asked: &Variant| matches!(asked.structure, Tree(_) | Refitted(_) | Stream(_));
+        let trees = variants().filter(is_tree);
+        check_variants(trees, structures, &many, &one_lane);
+    });
     tiles::check(scene);
+}
+
+/// Behind the spheres that they equal, copies change no answer.
+fn with_copies(scene: &AimedScene) -> AimedScene {
+    let spheres = scene.spheres.iter().copied().cycle().take(MANY).collect();
+    AimedScene { spheres, ..scene.clone() }
 }
 
 /// What a tier answers in one lane.
@@ -149,23 +165,6 @@ fn judge(
     }
 }
 
-/// Ray i and the sphere that it was aimed at.
-fn check_pairs(tier: Tier, AimedScene { rays, aims, spheres }: &AimedScene) {
-    let case = |(&ray, &aim): (&Ray, &usize)| Case { ray, sphere: spheres[aim] };
-    let cases: Vec<Case> = rays.iter().zip(aims).map(case).collect();
-    let answer = |case: &Case| {
-        let roots = roots(tier, &case.ray, &case.sphere);
-        promise::judge(tier, &case.ray, &case.sphere, roots);
-        roots.and_then(|roots| accepted(&case.ray, roots)).map(f32::to_bits)
-    };
-    let expected: Vec<_> = cases.iter().map(answer).collect();
-    for layer in pair_layers() {
-        let found: Vec<_> =
-            pairs_of(tier, layer, &cases).into_iter().map(|t| t.map(f32::to_bits)).collect();
-        assert_eq!(found, expected, "pairs: {tier:?}, {layer:?}: {cases:?}");
-    }
-}
-
 /// Rules 1 and 3 to 5, on a one-lane answer.
 fn check_rules(tier: Tier, ray: &Ray, spheres: &[Sphere], hit: Option<Hit>) {
     let mut expected: Option<Hit> = None;
@@ -228,6 +227,13 @@ mod tests {
         assert!(judged * 3 > all, "{judged} of {all} in the domain");
         assert!(met * 4 > all, "{met} of {all} meet");
         assert!(kept * 20 > all, "{kept} of {all} must not be lost");
+    }
+
+    #[test]
+    fn copies_make_more_spheres_than_a_small_tree_has() {
+        let scene = AimedScene::from_bytes(&[7]);
+        let many = with_copies(&scene).spheres;
+        assert!(many.len() > 64 && many.starts_with(&scene.spheres), "{many:?}");
     }
 
     #[test]

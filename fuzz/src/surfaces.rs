@@ -1,12 +1,15 @@
 //! Surfaces and the rays spawned on them: the same bits at every layer, by `Exact` the bits of integers, and a spawned
 //! ray meets nothing where it starts.
 
-use spherule_kernel::{Intersect, Ray, Side, Sphere, SphereList, Tier, Vec3, roots, side, surface};
+use crate::promise::is_stable_in_structures;
+use spherule_kernel::{
+    Intersect, Ray, Side, Sphere, SphereList, Tier, Towards, Vec3, roots, side, surface,
+};
 use spherule_referee::aim::double;
 use spherule_referee::bytes::AimedScene;
 use spherule_referee::random::dot;
 use spherule_tests::oracle;
-use spherule_tests::variants::{Layer, surface_layers, surfaces_of};
+use spherule_tests::variants::{Layer, shadow_rays_of, surface_layers, surfaces_of};
 
 /// Judges the surfaces that the rays of a scene hit.
 ///
@@ -35,6 +38,29 @@ pub fn check(tier: Tier, scene: &AimedScene) {
         for to in [Side::Outside, Side::Inside] {
             spawned_ray_misses(tier, ray, hit.t, &sphere, to);
         }
+    }
+    let in_domain = |ray: &&Ray| spheres.iter().all(|sphere| is_stable_in_structures(ray, sphere));
+    let some: Vec<Ray> = rays.iter().filter(in_domain).copied().collect();
+    if let [first, .., last] = some[..] {
+        for towards in [Towards::Direction(-first.direction), Towards::Point(last.origin)] {
+            shadow_rays_are_those_of_one_ray(tier, &list, &some, towards);
+        }
+    }
+}
+
+fn shadow_rays_are_those_of_one_ray(tier: Tier, list: &SphereList, rays: &[Ray], towards: Towards) {
+    let of = |layer| {
+        let spawned = shadow_rays_of(tier, layer, list, rays, towards);
+        let all = |ray: Ray| {
+            let interval = [ray.t_min, ray.t_max].map(f32::to_bits);
+            ray.is_live().then(|| (bits([ray.origin, ray.direction]), interval))
+        };
+        spawned.into_iter().take(rays.len()).map(all).collect::<Vec<_>>()
+    };
+    let one_by_one = of(Layer::Ray);
+    for layer in surface_layers() {
+        let list = list.spheres();
+        assert_eq!(of(layer), one_by_one, "{tier:?} {layer:?} {towards:?}: {rays:?} {list:?}");
     }
 }
 
