@@ -2,18 +2,15 @@
 //! against the exact oracle, so that the files are not the program's word alone.
 //!
 //! After an intended change, `SPHERULE_GOLDEN=write cargo test -p spherule-tests golden` writes the files in
-//! `tui/tests/golden` anew; read the diff before committing it.
+//! `tui/tests/golden` anew, except the one of `tui/tests/program/show.rs`; read the diff before committing it.
 
 use spherule::cells::masks::repertoire;
-use spherule::compare::error_map::ErrorMapper;
-use spherule::compare::legend::MapPainter;
-use spherule::draw::{brute_force, draw, sample_grid};
+use spherule::draw::{draw, sample_grid};
 use spherule::scene::Scene;
 use spherule::style::{Charset, ColorDepth, Style};
-use spherule::threads::Threads;
 use spherule::view::{LensKind, View, orbited, with_projection};
 use spherule::{encode, scene};
-use spherule_kernel::{Level, Sphere, Tier, Vec3};
+use spherule_kernel::{Sphere, Tier, Vec3};
 use spherule_tests::oracle;
 use std::path::PathBuf;
 
@@ -53,21 +50,6 @@ fn edge_as_the_lecture_s_forms_see_it() {
     {
         check(file, &picture("edge", &Style { accuracy, ..ASCII }, 60, 24));
     }
-}
-
-/// What `spherule edge --show error --accuracy fast` writes to a pipe.
-#[test]
-fn edge_as_far_as_fast_is_wrong_there() {
-    let style = Style { accuracy: Tier::Fast, ..ASCII };
-    let scene = scene::builtin::builtin("edge").expect("edge");
-    let view = scene.first_view(style.picture_aspect(80, 24) as f32);
-    let search = brute_force(&scene, &view);
-    let machine = (Level::best(), &Threads::default());
-    let mut mapper = ErrorMapper::default();
-    let map = mapper.map((&scene, &search), &view, &style, (80, 24), machine, |_| {});
-    let mut bytes = Vec::new();
-    encode::full(&MapPainter::new(&style).cells(&map, 0..24), &mut bytes);
-    check("edge-fast-errors.txt", &String::from_utf8(bytes).expect("UTF-8"));
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use proptest::prelude::*;
 use spherule_kernel::{Exact, Hit, Intersect, Ray, Sphere, SphereTree, Tier, Vec3, compare_hits};
 use spherule_referee::random::Random;
+use spherule_referee::strategies;
 use spherule_tests::campaign::on_all_cores;
 use spherule_tests::oracle;
 use spherule_tests::variants::{assert_hits, bits};
@@ -153,7 +154,7 @@ fn shared_roots_are_ties() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(256))]
+    #![proptest_config(strategies::config(256))]
 
     /// Few bits, few exponents: roots that nearly coincide, and both roots of a sphere.
     #[test]

@@ -27,10 +27,11 @@ mod sixels;
 mod sizes;
 mod table;
 mod viewer;
+mod window;
 
 use modes::is_cooked;
 use output::{BEGIN, Output};
-use picture::{OPTIONS, once, once_with};
+use picture::{OPTIONS, first, once, once_with};
 use session::Session;
 use spherule::view::{LensKind, orbited, with_projection, zoomed};
 use spherule::viewer::{ORBIT_STEP, ZOOM_STEP};
@@ -40,9 +41,8 @@ use viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 #[test]
 fn it_starts_and_draws_what_once_draws() {
     let viewer = Viewer::start();
-    let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
-    assert!(expected.iter().flatten().any(|(glyph, ..)| glyph != " "), "a blank picture");
-    viewer.wait_for_picture("the first picture", &expected);
+    assert!(first().iter().flatten().any(|(glyph, ..)| glyph != " "), "a blank picture");
+    viewer.wait_for_picture("the first picture", first());
     {
         let output = viewer.session.output();
         assert!(output.screen().hide_cursor());
@@ -64,13 +64,12 @@ fn a_background_that_is_asked_for_is_behind_a_scene_that_names_none() {
 #[test]
 fn s_goes_through_the_structures_and_the_picture_stays() {
     let mut viewer = Viewer::start();
-    let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
     for structure in ["brute", "depth-list", "bvh"] {
         viewer.session.type_in("s");
         viewer.session.wait_until(structure, |output| {
             output.shows_a_frame() && output.status().contains(structure)
         });
-        viewer.wait_for_picture("the same picture", &expected);
+        viewer.wait_for_picture("the same picture", first());
         let line = viewer.session.output().status();
         assert!(line.trim_end().ends_with("? help  q quit"), "{line}");
     }
@@ -80,7 +79,7 @@ fn s_goes_through_the_structures_and_the_picture_stays() {
 #[test]
 fn object_order_draws_the_same_and_says_so() {
     let viewer = Viewer::start_as(&["--order", "object"]);
-    viewer.wait_for_picture("the same picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the same picture", first());
     assert!(viewer.session.output().status().contains("exact perspective half object"));
     viewer.quit();
 }
@@ -99,7 +98,7 @@ fn keys_orbit_and_zoom() {
     let parallel = with_projection(&view, LensKind::Parallel);
     viewer.wait_for_picture("the projection", &once(&parallel, COLUMNS, PICTURE_ROWS));
     viewer.session.type_in("r");
-    viewer.wait_for_picture("the way back", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the way back", first());
     viewer.quit();
 }
 
@@ -128,23 +127,13 @@ fn the_status_line_tells_the_tier() {
 #[test]
 fn c_goes_around_the_charsets() {
     let mut viewer = Viewer::start();
-    let expected = once(&VIEW, COLUMNS, PICTURE_ROWS);
+    // A terminal may draw a glyph wider than its cell, over cells that stay as they are.
+    viewer.session.output().terminal.process(b"\x1b7\x1b[Hwide\x1b8");
     for charset in ["quadrant", "sextant", "octant", "braille", "block", "ascii", "half"] {
         viewer.session.type_in("c");
         viewer.session.wait_for_status(&format!(" perspective {charset} "));
     }
-    viewer.wait_for_picture("the first charset", &expected);
-    viewer.quit();
-}
-
-/// A terminal may draw a glyph wider than its cell, over cells that stay as they are.
-#[test]
-fn another_charset_is_written_over_what_the_last_has_left() {
-    let mut viewer = Viewer::start();
-    viewer.session.output().terminal.process(b"\x1b7\x1b[Hwide\x1b8");
-    // Around to the first.
-    viewer.session.type_in("ccccccc");
-    viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the first charset", first());
     viewer.quit();
 }
 
@@ -191,7 +180,7 @@ fn e_shows_the_errors_and_the_picture_again() {
     viewer.wait_for_picture("what --once shows", &expected);
     viewer.session.wait_for_peace();
     viewer.session.type_in("3e");
-    viewer.wait_for_picture("the picture again", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the picture again", first());
     viewer.quit();
 }
 
@@ -240,7 +229,7 @@ fn v_shows_two_tiers_and_the_seam_moves() {
     wait_for_seam(&viewer, 60);
     viewer.session.wait_for_peace();
     viewer.session.type_in("v");
-    viewer.wait_for_picture("the first view still", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the first view still", first());
     // A drag that begins elsewhere moves the scene.
     viewer.session.type_in("v\x1b[<0;11;6M\x1b[<32;21;6M\x1b[<0;21;6mv");
     let a_row = PI / f32::from(PICTURE_ROWS);
@@ -252,11 +241,10 @@ fn v_shows_two_tiers_and_the_seam_moves() {
 #[test]
 fn help_opens_and_closes() {
     let mut viewer = Viewer::start();
-    let before = once(&VIEW, COLUMNS, PICTURE_ROWS);
     viewer.session.type_in("?");
     viewer.session.wait_for_words("wheel");
     viewer.session.type_in("?");
-    viewer.wait_for_picture("the picture under it", &before);
+    viewer.wait_for_picture("the picture under it", first());
     viewer.quit();
 }
 
@@ -266,7 +254,7 @@ fn it_spins_until_told_not_to() {
     viewer.session.type_in(" ");
     viewer.session.wait_until("a rate", Output::tells_a_rate);
     viewer.session.type_in(" r");
-    viewer.wait_for_picture("the first view", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the first view", first());
     viewer.quit();
 }
 

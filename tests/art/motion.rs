@@ -1,4 +1,4 @@
-//! The error of changes, by hand.
+//! The error of changes, against cases worked by hand.
 
 use spherule_tests::art::light::Light;
 use spherule_tests::art::motion::Changes;

@@ -2,7 +2,7 @@
 
 use super::look::look;
 use super::output::Output;
-use super::picture::{once, scene_file};
+use super::picture::{first, once, scene_file};
 use super::session::Session;
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 use spherule::view::orbited;
@@ -43,19 +43,18 @@ fn ctrl_l_draws_over_what_others_have_written() {
     viewer.session.wait_for_peace();
     viewer.session.output().terminal.process(b"\x1b7\x1b[Hnoise\x1b8");
     viewer.session.type_in("\x0c");
-    viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the picture", first());
     viewer.quit();
 }
 
 #[test]
 fn escape_takes_a_word_of_the_program_away_before_it_quits() {
     let mut viewer = Viewer::start();
-    let picture = once(&VIEW, COLUMNS, PICTURE_ROWS);
     viewer.session.type_in("y");
     viewer.session.wait_until("the command line", |output| {
-        output.shows_a_frame() && look(output.screen(), PICTURE_ROWS) != picture
+        output.shows_a_frame() && look(output.screen(), PICTURE_ROWS) != first()
     });
     viewer.session.type_in("\x1b");
-    viewer.wait_for_picture("the picture under it", &picture);
+    viewer.wait_for_picture("the picture under it", first());
     viewer.session.quit("\x1b");
 }

@@ -3,13 +3,12 @@
 use super::emulated::{Emulated, STATUS};
 use super::look::last_row;
 use super::modes::is_cooked;
-use super::picture::{once, scene_file};
-use super::session::{Session, command, size};
-use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, STOPPED, VIEW, Viewer};
-use portable_pty::native_pty_system;
+use super::picture::{first, scene_file};
+use super::session::{Session, command};
+use super::viewer::{COLUMNS, ROWS, STOPPED, VIEW, Viewer};
+use super::window::Window;
 use rustix::process::Signal;
 use spherule_tests::binary::spherule;
-use std::io::Read;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -20,7 +19,7 @@ fn assert_is_left_and_taken_again(mut viewer: Viewer, go_on: impl FnOnce(&mut Se
     assert_eq!(viewer.session.left_behind(), [""; 0]);
     let sent = viewer.session.output().sent.len();
     go_on(&mut viewer.session);
-    viewer.wait_for_picture("the picture again", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the picture again", first());
     assert!(!is_cooked(&viewer.session.modes()));
     let redrawn = viewer.session.output().text_after(sent).contains("\x1b[2J");
     assert!(redrawn, "not drawn in full");
@@ -43,7 +42,7 @@ fn ctrl_z_without_a_shell_stops_nothing_and_says_so() {
     viewer.session.wait_for_words("no shell to continue it");
     assert!(!is_cooked(&viewer.session.modes()));
     viewer.session.type_in("3");
-    viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the picture", first());
     viewer.quit();
 }
 
@@ -87,7 +86,7 @@ fn after_a_stop_that_cannot_be_caught_it_leaves_at_once() {
 fn leaves_after_a_stop() -> Duration {
     const DELAY: Duration = Duration::from_millis(300);
     let mut viewer = Viewer::start_on(late(DELAY), &[]);
-    viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_look("the picture", first());
     viewer.session.wait_for_peace();
     viewer.session.type_in("1");
     viewer.session.wait_for_status(" fast ");
@@ -233,19 +232,11 @@ fn it_ends_with_its_terminal() {
         (&[scene.path()], (COLUMNS, ROWS), has_status),
         (&["marbles", "--no-probe"], (200, 60), |sent| sent.len() >= 20_000),
     ];
-    for (arguments, (columns, rows), until) in cases {
-        let pair = native_pty_system().openpty(size(columns, rows)).expect("a pseudo-terminal");
-        let program = command(spherule(), arguments, &[]);
-        let mut child = pair.slave.spawn_command(program).expect("the program starts");
-        let mut reader = pair.master.try_clone_reader().expect("output can be read");
-        let (mut sent, mut bytes) = (Vec::new(), [0; 4096]);
-        while !until(&sent) {
-            let count = reader.read(&mut bytes).expect("the program writes");
-            sent.extend_from_slice(&bytes[..count]);
-        }
-        drop((pair, reader));
-        let status = child.wait().expect("it is our child");
-        assert_eq!(status.signal(), Some("Hangup"), "{arguments:?}: {status}");
+    for (arguments, size, until) in cases {
+        println!("{arguments:?}");
+        let mut window = Window::open(command(spherule(), arguments, &[]), size);
+        window.read_until(until);
+        window.close();
     }
 }
 

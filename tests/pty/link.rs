@@ -29,7 +29,7 @@ fn spinning(link: &Link, more: &[&str]) -> Session {
 /// quiet machine would wait.
 fn delays(session: &mut Session) -> Vec<(Duration, Duration)> {
     let keys = [("1", " fast "), ("3", " exact ")].into_iter().cycle();
-    keys.take(20)
+    keys.take(8)
         .map(|(key, tier)| {
             thread::sleep(Duration::from_millis(310));
             let (before, start) = (session.output().sent.len(), Instant::now());

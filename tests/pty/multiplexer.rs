@@ -2,8 +2,8 @@
 
 use super::emulated::{ATTRIBUTES, Emulated, PEN, STATUS};
 use super::output::Output;
-use super::picture::once;
-use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
+use super::picture::first;
+use super::viewer::{COLUMNS, ROWS, Viewer};
 use std::thread;
 use std::time::Duration;
 
@@ -22,7 +22,7 @@ fn start(attributes: &'static str, more: &[&str], term: &str, tmux: &str) -> Vie
 }
 
 fn wait_for_cells(viewer: &Viewer) {
-    viewer.wait_for_look("cells", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_look("cells", first());
 }
 
 /// They would take a question about images for a title, which stays, and GNU screen hands on what is in a DCS.
@@ -53,7 +53,7 @@ fn there_are_pixels_if_the_terminal_behind_tmux_answers() {
         if gets_pixels {
             viewer.session.wait_for_text(PLACEHOLDER);
         } else {
-            viewer.session.wait_for_words("the terminal has none");
+            viewer.session.wait_for_words("the terminal cannot show");
             viewer.session.type_in("3");
             wait_for_cells(&viewer);
             assert!(!viewer.session.output().text().contains(PLACEHOLDER));
@@ -71,7 +71,7 @@ fn start_before_the_answer() -> Viewer {
 #[test]
 fn a_terminal_behind_tmux_that_answers_late_gets_pixels() {
     let mut viewer = start_before_the_answer();
-    let is_denied = |output: &Output| output.contents().contains("the terminal has none");
+    let is_denied = |output: &Output| output.contents().contains("the terminal cannot show");
     viewer.session.wait_until("a word about it", is_denied);
     viewer.session.type_in(HAS_IMAGES);
     viewer.session.wait_until("placeholders", |output| {

@@ -2,7 +2,7 @@
 
 use super::look::inverse;
 use super::output::Output;
-use super::picture::once;
+use super::picture::{first, once};
 use super::viewer::{COLUMNS, PICTURE_ROWS, VIEW, Viewer};
 use spherule::scene::framing::reframed;
 use spherule::view::{View, panned};
@@ -47,7 +47,7 @@ fn p_picks_arrows_lead_on_and_escape_ends_it_alone() {
     viewer.session.type_in(&"k".repeat(100));
     wait_for_pick(&viewer, (0, 0), "no sphere is hit, by fast, geometric, stable or exact");
     viewer.session.type_in("\x1b");
-    viewer.wait_for_picture("the picture under it", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the picture under it", first());
     assert!(inverse(viewer.session.output().screen()).is_empty());
     viewer.quit();
 }

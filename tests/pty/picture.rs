@@ -3,10 +3,12 @@
 
 use super::file::TestFile;
 use super::look::{Look, look};
+use super::viewer::{COLUMNS, PICTURE_ROWS, VIEW};
 use spherule::view::{Lens, View};
 use spherule_tests::binary::spherule;
 use std::num::NonZeroU16;
 use std::process::{Command, Stdio};
+use std::sync::LazyLock;
 
 /// A scene of three lit spheres and a shadow, seen from `view`.
 pub(crate) fn scene_file(view: &View) -> TestFile {
@@ -61,7 +63,13 @@ pub(crate) fn once(view: &View, columns: u16, rows: u16) -> Vec<Vec<Look>> {
     once_with(&[], view, columns, rows)
 }
 
-/// The same with more options.
+/// The same of the first view, in the viewer's size.
+pub(crate) fn first() -> &'static [Vec<Look>] {
+    static FIRST: LazyLock<Vec<Vec<Look>>> = LazyLock::new(|| once(&VIEW, COLUMNS, PICTURE_ROWS));
+    &FIRST
+}
+
+/// What [`once`] has with more options.
 pub(crate) fn once_with(options: &[&str], view: &View, columns: u16, rows: u16) -> Vec<Vec<Look>> {
     let scene = scene_file(view);
     let mut command = Command::new(spherule());

@@ -6,7 +6,7 @@ use super::emulated::{
 use super::file::TestFile;
 use super::look::look;
 use super::output::Output;
-use super::picture::{once, once_by, scene_file};
+use super::picture::{first, once_by, scene_file};
 use super::session::Session;
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 use base64::Engine;
@@ -147,9 +147,9 @@ fn pixels_have_the_colours_that_are_chosen() {
 #[test]
 fn a_terminal_that_lies_gets_cells() {
     let mut viewer = Viewer::start_on(Emulated::with(&KITTY[..5]), &["--output", "kitty"]);
-    viewer.session.wait_for_words("--output kitty: the terminal has none");
+    viewer.session.wait_for_words("--output kitty: the terminal cannot show");
     viewer.session.type_in("13");
-    viewer.wait_for_picture("cells", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("cells", first());
     viewer.quit();
 }
 
@@ -168,7 +168,7 @@ fn answers_to_earlier_frames_deny_no_image() {
     viewer.session.type_in("e ");
     viewer.session.wait_until("an image", |output| last_image(&output.sent).is_some());
     thread::sleep(3 * delay);
-    assert!(!viewer.session.output().contents().contains("the terminal has none"));
+    assert!(!viewer.session.output().contents().contains("the terminal cannot show"));
     viewer.quit();
 }
 
@@ -178,7 +178,7 @@ fn a_terminal_that_has_no_pixels_gets_cells() {
     for (output, begins) in [("kitty", "\x1b_Ga=T"), ("sixel", "\x1bP0;1"), ("auto", "\x1b_Ga=T")] {
         let mut viewer = Viewer::start_as(&["--output", output]);
         viewer.session.type_in("13");
-        viewer.wait_for_picture("cells", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+        viewer.wait_for_picture("cells", first());
         assert!(!viewer.session.output().text().contains(begins), "{output}");
         viewer.quit();
     }

@@ -5,7 +5,7 @@ use super::emulated::{
 };
 use super::look::look;
 use super::output::{BEGIN, Output};
-use super::picture::{once, scene_file};
+use super::picture::{first, scene_file};
 use super::session::Session;
 use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
 use spherule_tests::binary::spherule;
@@ -50,15 +50,14 @@ fn knows(rules: &[Rule], asked: &str, part: &str) -> bool {
 }
 
 fn shows_the_picture(output: &Output) -> bool {
-    look(output.screen(), PICTURE_ROWS) == once(&VIEW, COLUMNS, PICTURE_ROWS)
-        && output.status().contains("? help  q quit")
+    look(output.screen(), PICTURE_ROWS) == first() && output.status().contains("? help  q quit")
 }
 
 /// Asserts that the picture is right, all keys work, and nothing is left behind.
 fn assert_is_usable(mut viewer: Viewer, what: &str) {
-    viewer.wait_for_look(what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_look(what, first());
     type_tiers(&mut viewer);
-    viewer.wait_for_look(what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_look(what, first());
     println!("{what}");
     viewer.session.quit("q");
     assert_eq!(viewer.session.output().contents(), "", "{what}");
@@ -83,7 +82,7 @@ fn every_terminal_shows_the_picture_and_is_left_as_it_was() {
             let term = if name == "linux" { "linux" } else { "xterm-256color" };
             let viewer = Viewer::start_in(emulated, &[], &[("TERM", term)], (COLUMNS, ROWS));
             let what = format!("{name}, torn: {is_torn}");
-            viewer.wait_for_look(&what, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+            viewer.wait_for_look(&what, first());
             {
                 let sent = viewer.session.output().text();
                 // Torn answers may come late, and count only from then on.
@@ -104,7 +103,7 @@ fn every_terminal_shows_the_picture_and_is_left_as_it_was() {
 #[test]
 fn a_silent_terminal_is_waited_for_no_longer_than_a_moment_and_asked_no_more() {
     let viewer = Viewer::start_on(Emulated::with(&[]), &[]);
-    viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_look("the picture", first());
     let sent = viewer.session.output().text();
     assert_eq!([ATTRIBUTES, STATUS, BEGIN].map(|what| sent.matches(what).count()), [1, 1, 0]);
     assert_is_usable(viewer, "silent");
@@ -113,7 +112,7 @@ fn a_silent_terminal_is_waited_for_no_longer_than_a_moment_and_asked_no_more() {
 #[test]
 fn no_probe_asks_nothing() {
     let viewer = Viewer::start_as(&["--no-probe"]);
-    viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_look("the picture", first());
     let sent = viewer.session.output().text();
     for question in QUESTIONS {
         assert!(!sent.contains(question.1), "{question:?}");
@@ -136,7 +135,7 @@ fn late_answers_count(name: &str, rules: Vec<Rule>) {
     let answers = Manner { rules, delay: Duration::from_secs(3), is_torn: false };
     let is_known = knows(&answers.rules, SYNCHRONIZED, ";2$");
     let mut viewer = Viewer::start_on(Emulated { answers, link: None }, &[]);
-    viewer.wait_for_look(name, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_look(name, first());
     thread::sleep(Duration::from_millis(3300));
     let sent = viewer.session.output().sent.len();
     type_tiers(&mut viewer);
@@ -175,7 +174,7 @@ fn half_a_string_for_ever_is_no_key() {
 
 fn half_an_answer_is_no_key(half: &'static str) {
     let viewer = Viewer::start_on(Emulated::with(&[(BACKGROUND, half)]), &[]);
-    viewer.wait_for_look(half, &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_look(half, first());
     // Until the program has given up on the answer.
     thread::sleep(Duration::from_millis(700));
     assert_is_usable(viewer, half);
@@ -183,7 +182,7 @@ fn half_an_answer_is_no_key(half: &'static str) {
 
 fn a_stream_is_no_key() {
     let mut viewer = Viewer::start_on(Emulated::with(&[]), &[]);
-    viewer.wait_for_look("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_look("the picture", first());
     viewer.session.type_in("\x1b]11;");
     for _ in 0..300 {
         viewer.session.type_in("q c ");

@@ -1,13 +1,12 @@
 //! `R` in the viewer: what it shows becomes a file.
 
 use super::output::Output;
-use super::session::{Session, command, size};
+use super::session::{Session, command};
 use super::viewer::{COLUMNS, ROWS};
-use portable_pty::native_pty_system;
+use super::window::Window;
 use rustix::process::Signal;
 use spherule_tests::binary::spherule;
 use std::fs;
-use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 /// An empty folder.
@@ -71,7 +70,7 @@ fn where_no_file_can_be_made_nothing_is_recorded() {
     let folder = folder("no-cast");
     let script = format!("cd '{0}' && rmdir '{0}' && exec \"$0\" \"$@\"", folder.display());
     let mut session = start(&script);
-    session.wait_for_words("no recording here: no such file or directory");
+    session.wait_for_words("cannot record here: no such file or directory");
     assert!(!records(&session.output()));
     session.quit("q");
 }
@@ -106,24 +105,15 @@ fn a_signal_that_ends_the_program_ends_a_recording() {
 #[test]
 fn a_recording_ends_with_its_terminal() {
     let folder = folder("gone-cast");
-    let pair = native_pty_system().openpty(size(COLUMNS, ROWS)).expect("a pseudo-terminal");
     let mut program = command(spherule(), &["marbles", "--no-probe"], &[]);
     program.cwd(&folder);
-    let mut child = pair.slave.spawn_command(program).expect("the program starts");
-    let mut reader = pair.master.try_clone_reader().expect("output can be read");
-    let mut keys = pair.master.take_writer().expect("input can be written");
-    let (mut sent, mut bytes) = (Vec::<u8>::new(), [0; 4096]);
-    let mut wait_for = |word: &[u8]| {
-        while !sent.windows(word.len()).any(|bytes| bytes == word) {
-            let count = reader.read(&mut bytes).expect("the program writes");
-            sent.extend_from_slice(&bytes[..count]);
-        }
+    let mut window = Window::open(program, (COLUMNS, ROWS));
+    let has = |word: &'static [u8]| {
+        move |sent: &[u8]| sent.windows(word.len()).any(|bytes| bytes == word)
     };
-    wait_for(b"q quit");
-    keys.write_all(b"R").expect("it listens");
-    wait_for(b"recording:");
-    drop((keys, pair, reader));
-    let status = child.wait().expect("it is our child");
-    assert_eq!(status.signal(), Some("Hangup"), "{status}");
+    window.read_until(has(b"q quit"));
+    window.type_in(b"R");
+    window.read_until(has(b"recording:"));
+    window.close();
     kept(&folder);
 }

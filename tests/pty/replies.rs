@@ -1,7 +1,7 @@
 //! A terminal's answers are no keys, however they come.
 
-use super::picture::once;
-use super::viewer::{COLUMNS, PICTURE_ROWS, VIEW, Viewer};
+use super::picture::first;
+use super::viewer::Viewer;
 use std::thread;
 use std::time::Duration;
 
@@ -35,7 +35,7 @@ fn no_answer_is_a_key_wherever_it_is_split() {
     }
     viewer.session.wait_for_peace();
     assert_eq!(viewer.session.output().text_after(sent), "");
-    viewer.wait_for_picture("the first picture still", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the first picture still", first());
     viewer.quit();
 }
 

@@ -1,8 +1,8 @@
 //! The picture follows a terminal whose size changes.
 
 use super::look::look;
-use super::picture::once;
-use super::viewer::{COLUMNS, PICTURE_ROWS, ROWS, VIEW, Viewer};
+use super::picture::{first, once};
+use super::viewer::{COLUMNS, ROWS, VIEW, Viewer};
 
 #[test]
 fn it_follows_the_size() {
@@ -18,7 +18,7 @@ fn it_follows_the_size() {
 fn an_early_resize_is_not_lost() {
     let viewer = Viewer::start_at_size(40, 12);
     viewer.session.resize(COLUMNS, ROWS);
-    viewer.wait_for_picture("the new size", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the new size", first());
     viewer.quit();
 }
 
@@ -29,7 +29,7 @@ fn a_storm_of_sizes_ends_in_the_last() {
         viewer.session.resize(20 + step % 70, 3 + step % 17);
     }
     viewer.session.resize(COLUMNS, ROWS);
-    viewer.wait_for_picture("the last size", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the last size", first());
     viewer.quit();
 }
 
@@ -54,7 +54,7 @@ fn a_terminal_without_a_cell_is_waited_for() {
     let viewer = Viewer::start_at_size(0, 7);
     viewer.session.wait_until("the start", |output| output.screen().hide_cursor());
     viewer.session.resize(COLUMNS, ROWS);
-    viewer.wait_for_picture("the picture", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+    viewer.wait_for_picture("the picture", first());
     viewer.session.resize(1, 1);
     viewer.session.resize(0, 7);
     viewer.quit();
@@ -75,7 +75,7 @@ fn a_terminal_of_unknown_size_is_drawn_on() {
             shown.eq(expected.iter().map(Vec::as_slice))
         });
         viewer.session.resize(COLUMNS, ROWS);
-        viewer.wait_for_picture("the told size", &once(&VIEW, COLUMNS, PICTURE_ROWS));
+        viewer.wait_for_picture("the told size", first());
         viewer.quit();
     }
 }

@@ -1,4 +1,4 @@
-//! Where what decides is just at its limit.
+//! Spawned rays where the number that decides is just at its limit.
 
 use super::{hit, hit_of, spawn, true_side};
 use spherule_kernel::{Exact, Intersect, Ray, Side, Sphere, SphereList, Tier, Vec3, roots, side};

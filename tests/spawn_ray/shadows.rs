@@ -235,31 +235,26 @@ fn tangents_came_from_outside() {
 fn rays_are_spawned_at_both_ends_of_the_numbers() {
     let (tiny, large) = (2_f32.powi(-127), 2_f32.powi(120));
     let from = |x, y, z, direction| Ray::new(Vec3::new(x, y, z), direction);
+    let (along, to) = (Towards::Direction, Towards::Point);
+    let (far, radius) = (2_f32.powi(104), 2_f32.powi(103));
     for (sphere, ray, towards) in [
-        ([0.0; 4], from(0.0, 0.0, -3.0, Vec3::Z), Vec3::NEG_Z),
-        ([0.0, 0.0, 0.0, tiny], from(0.0, 0.0, -1.0, Vec3::Z), Vec3::NEG_Z),
-        ([0.0, 0.0, 0.0, tiny], from(0.0, 0.0, 0.0, Vec3::Z), Vec3::NEG_Z),
-        ([0.0, 0.0, 0.0, f32::MAX], from(0.0, 0.0, 0.0, Vec3::X), Vec3::NEG_X),
-        ([f32::MAX, 0.0, 0.0, large], from(f32::MAX, 2.0 * large, 0.0, Vec3::NEG_Y), Vec3::Y),
+        ([0.0; 4], from(0.0, 0.0, -3.0, Vec3::Z), along(Vec3::NEG_Z)),
+        ([0.0, 0.0, 0.0, tiny], from(0.0, 0.0, -1.0, Vec3::Z), along(Vec3::NEG_Z)),
+        ([0.0, 0.0, 0.0, tiny], from(0.0, 0.0, 0.0, Vec3::Z), along(Vec3::NEG_Z)),
+        ([0.0, 0.0, 0.0, f32::MAX], from(0.0, 0.0, 0.0, Vec3::X), along(Vec3::NEG_X)),
+        (
+            [f32::MAX, 0.0, 0.0, large],
+            from(f32::MAX, 2.0 * large, 0.0, Vec3::NEG_Y),
+            along(Vec3::Y),
+        ),
+        // From the surface the way to the target overflows; from half a step out it does not.
+        ([-far, 0.0, 0.0, radius], from(0.0, 0.0, 0.0, Vec3::NEG_X), to(f32::MAX * Vec3::X)),
     ] {
         let list = SphereList::from([sphere]);
-        let towards = Towards::Direction(towards);
         let spawned = shadow_rays_of(Tier::Exact, Layer::Ray, &list, &[ray], towards);
         assert!(spawned[0].is_live(), "{sphere:?} {ray:?}");
         assert!(assert_as_one_ray(&list, &[ray], towards) > 0);
     }
-}
-
-/// From the surface the way to the target overflows; from half a step out it does not.
-#[test]
-fn a_way_that_is_just_a_number_is_one() {
-    let (far, radius) = (2_f32.powi(104), 2_f32.powi(103));
-    let list = SphereList::from([[-far, 0.0, 0.0, radius]]);
-    let ray = Ray::new(Vec3::ZERO, Vec3::NEG_X);
-    let towards = Towards::Point(f32::MAX * Vec3::X);
-    let spawned = shadow_rays_of(Tier::Exact, Layer::Ray, &list, &[ray], towards);
-    assert!(spawned[0].is_live());
-    assert!(assert_as_one_ray(&list, &[ray], towards) > 0);
 }
 
 /// A way that is longer than numbers is no shadow ray: nothing would be in its way.

@@ -24,14 +24,14 @@ function __fish_spherule_using_subcommand
     contains -- $cmd[1] $argv
 end
 
-complete -c spherule -n "__fish_spherule_needs_command" -l size -d 'Picture size in cells, each 1 to 4096, without the viewer [default: 80x24; on a terminal all rows but the last]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l size -d 'Write one picture of this size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l samples -d 'Rays a cell, 1 to 256; auto: more where they are needed' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
 parallel\t'They do not'"
 complete -c spherule -n "__fish_spherule_needs_command" -l eye -d 'Where the eye is, whatever the scene says' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l target -d 'The point looked at, whatever the scene says' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l fov -d 'The vertical field of view in degrees; in parallel projection, the angle at which the eye sees the height at the target' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l orbit -d 'Then lead the eye around the target: degrees right, degrees up' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l orbit -d 'Turn the eye around the target, after --eye and --target: degrees right, degrees up' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l order -d 'Which loop is the outer one, over rays or spheres; object excludes --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
 object\t'For each sphere the rays that may meet it'"
 complete -c spherule -n "__fish_spherule_needs_command" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera: Spherule\'s own'
@@ -56,7 +56,7 @@ complete -c spherule -n "__fish_spherule_needs_command" -l accuracy -d 'How far 
 geometric\t''
 stable\t''
 exact\t''"
-complete -c spherule -n "__fish_spherule_needs_command" -l charset -d 'Characters; auto: half with colour, else ascii' -r -f -a "auto\t'Whatever suits'
+complete -c spherule -n "__fish_spherule_needs_command" -l charset -d 'Characters; auto: half with colour, else ascii' -r -f -a "auto\t'Half with colour, ascii without colour or Unicode'
 ascii\t'Printable ASCII; in every font'
 half\t'Halves of a cell; in every font'
 quadrant\t'Quarters; in most fonts'
@@ -76,10 +76,10 @@ complete -c spherule -n "__fish_spherule_needs_command" -l cell-aspect -d 'Shape
 complete -c spherule -n "__fish_spherule_needs_command" -l distance -d 'How far away the eye is, in widths of a cell: 60 cm by default, if cells are 2.2 mm wide' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l show -d 'error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what every tier costs and gets wrong' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l color-by -d 'What spheres are coloured by: scene, element, chain, residue, molecule, type, or a column of numbers [default: chain if there are several, else scene]' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l range -d 'The numbers with the darkest and the lightest colour, with --color-by a column [default: the least and the largest of the frames so far]' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
+complete -c spherule -n "__fish_spherule_needs_command" -l range -d 'The numbers that get the darkest and the lightest colour; needs --color-by COLUMN [default: the least and the largest of the frames so far]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How spheres are searched' -r -f -a "auto\t'The one that takes the least time'
 brute\t'All spheres, from end to end'
-depth-list\t'The spheres by their depth, sorted for every picture'
+depth-list\t'The spheres by their depth, for rays that share an origin or a direction; other rays search all'
 bvh\t'A tree of boxes, built once'"
 complete -c spherule -n "__fish_spherule_needs_command" -l threads -d 'Threads, 1 to 1024 [default: one a core, or as many as the system gives]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
@@ -113,7 +113,7 @@ complete -c spherule -n "__fish_spherule_needs_command" -a "cases" -d 'Write cas
 complete -c spherule -n "__fish_spherule_needs_command" -a "judge" -d 'Judge another program\'s answers against exact truth'
 complete -c spherule -n "__fish_spherule_needs_command" -a "scenes" -d 'List the built-in scenes'
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l spheres -d 'Spheres: .npy, float32 or float64, (N, 4): centre xyz, radius' -r -F
-complete -c spherule -n "__fish_spherule_using_subcommand trace" -l rays -d 'Rays: .npy, float32 or float64, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l rays -d 'Rays: .npy, float32 or float64, (M, 8): origin xyz, direction xyz, t_min, t_max' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l out-t -d 'Where to write t: .npy, float32, (M,), +inf if a ray has no hit' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l out-id -d 'Where to write the sphere: .npy, int32, (M,), -1 if a ray has no hit; with --any 1 or 0' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l repeat -d 'Passes, 1 to 1000000; the speed is that of their median' -r
@@ -121,9 +121,9 @@ complete -c spherule -n "__fish_spherule_using_subcommand trace" -l accuracy -d 
 geometric\t''
 stable\t''
 exact\t''"
-complete -c spherule -n "__fish_spherule_using_subcommand trace" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l structure -d 'How spheres are searched' -r -f -a "auto\t'The one that takes the least time'
 brute\t'All spheres, from end to end'
-depth-list\t'The spheres by their depth, sorted for every picture'
+depth-list\t'The spheres by their depth, for rays that share an origin or a direction; other rays search all'
 bvh\t'A tree of boxes, built once'"
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l threads -d 'Threads, 1 to 1024 [default: one a core, or as many as the system gives]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand trace" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
@@ -139,7 +139,7 @@ parallel\t'They do not'"
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l eye -d 'Where the eye is, whatever the scene says' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l target -d 'The point looked at, whatever the scene says' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l fov -d 'The vertical field of view in degrees; in parallel projection, the angle at which the eye sees the height at the target' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l orbit -d 'Then lead the eye around the target: degrees right, degrees up' -r
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l orbit -d 'Turn the eye around the target, after --eye and --target: degrees right, degrees up' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l order -d 'Which loop is the outer one, over rays or spheres; object excludes --structure' -r -f -a "image\t'For each ray the spheres, by a structure'
 object\t'For each sphere the rays that may meet it'"
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l format -d 'Format of the scene [default: by content; .gz and .bz2 are unpacked]' -r -f -a "toml\t'Spheres, lights and a camera: Spherule\'s own'
@@ -158,9 +158,9 @@ urdf\t'A robot whose parts are spheres'"
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l columns -d 'Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l topology -d 'The file that says what the particles of an .xtc are' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l radius -d 'How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l structure -d 'How spheres are searched' -r -f -a "auto\t'Whatever suits'
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l structure -d 'How spheres are searched' -r -f -a "auto\t'The one that takes the least time'
 brute\t'All spheres, from end to end'
-depth-list\t'The spheres by their depth, sorted for every picture'
+depth-list\t'The spheres by their depth, for rays that share an origin or a direction; other rays search all'
 bvh\t'A tree of boxes, built once'"
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l threads -d 'Threads, 1 to 1024 [default: one a core, or as many as the system gives]' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l level -d 'Instructions [default: the best that the CPU has]' -r -f -a "baseline\t''
@@ -189,16 +189,16 @@ complete -c spherule -n "__fish_spherule_using_subcommand cases" -l family -d 'F
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l count -d 'How many cases, of all families together and in turns' -r
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l seed -d 'Their seed' -r
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-spheres -d 'Where to write spheres: .npy, float32, (N, 4): centre xyz, radius' -r -F
-complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-rays -d 'Where to write rays: .npy, float32, (N, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-rays -d 'Where to write rays: .npy, float32, (N, 8): origin xyz, direction xyz, t_min, t_max' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l out-family -d 'Where to write the numbers of families: .npy, uint8, (N,)' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l unit -d 'Bring directions to unit length, as near as float32 does'
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -l json -d 'Write each case as a line of JSON, numbers as hexadecimal floats, with the true t, instead of files'
 complete -c spherule -n "__fish_spherule_using_subcommand cases" -s h -l help -d 'Print help'
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l spheres -d 'Spheres: .npy, float32, (N, 4): centre xyz, radius' -r -F
-complete -c spherule -n "__fish_spherule_using_subcommand judge" -l rays -d 'Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l rays -d 'Rays: .npy, float32, (M, 8): origin xyz, direction xyz, t_min, t_max' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l t -d 'Answers: .npy, float32 or float64, (M,), +inf if a ray has no hit' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l id -d 'The spheres that were answered: .npy, int32, int64 or uint32, (M,), -1 if a ray has no hit' -r -F
-complete -c spherule -n "__fish_spherule_using_subcommand judge" -l family -d 'The family of each ray, as `spherule cases` writes them: .npy, uint8, (M,)' -r -F
+complete -c spherule -n "__fish_spherule_using_subcommand judge" -l family -d 'The family of each ray, as spherule cases writes them: .npy, uint8, (M,)' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l rules -d 'Where the program\'s rules are not Spherule\'s: a .toml file' -r -F
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l again -d 'A command that answers other pairs: it is called with the names of S.npy and R.npy, which it reads, and T.npy, which it writes; so the smallest failures are made smaller' -r
 complete -c spherule -n "__fish_spherule_using_subcommand judge" -l pairs -d 'Test ray i against sphere i'

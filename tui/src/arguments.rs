@@ -68,7 +68,7 @@ pub enum Command {
     /// Write man pages and completions for bash, zsh and fish
     #[command(hide = true)]
     Generate {
-        /// Where `man/` and `completions/` are made
+        /// Where man/ and completions/ are made
         folder: PathBuf,
     },
 }
@@ -88,7 +88,8 @@ pub struct PictureArguments {
     /// auto stays with what every font has, and with ascii where the locale has no Unicode (LANG=C). Finer sets are chosen by name; in the viewer c goes through all of them.
     /// Quadrants and braille are in most fonts, sextants and octants in Unifont and Cascadia Code; kitty, foot,
     /// Ghostty and GNOME's terminal draw them without a font.
-    #[arg(long, value_name = "SET", default_value = "auto", value_parser = auto_or::<Charset>())]
+    #[arg(long, value_name = "SET", default_value = "auto")]
+    #[arg(value_parser = auto_or::<Charset>("Half with colour, ascii without colour or Unicode"))]
     pub charset: Auto<Charset>,
     /// Colours
     #[arg(long, value_name = "WHEN", default_value = "auto")]
@@ -156,7 +157,8 @@ pub struct PictureArguments {
 #[derive(Args, Clone, Copy, Debug)]
 pub struct ComputingArguments {
     /// How spheres are searched
-    #[arg(long, value_name = "HOW", default_value = "auto", value_parser = auto_or::<Structure>())]
+    #[arg(long, value_name = "HOW", default_value = "auto")]
+    #[arg(value_parser = auto_or::<Structure>("The one that takes the least time"))]
     pub structure: Auto<Structure>,
     /// Threads, 1 to 1024 [default: one a core, or as many as the system gives]
     #[arg(long, value_name = "N")]
@@ -173,7 +175,7 @@ pub struct TraceArguments {
     /// Spheres: .npy, float32 or float64, (N, 4): centre xyz, radius
     #[arg(long, value_name = "S.npy")]
     pub spheres: PathBuf,
-    /// Rays: .npy, float32 or float64, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`
+    /// Rays: .npy, float32 or float64, (M, 8): origin xyz, direction xyz, t_min, t_max
     #[arg(long, value_name = "R.npy")]
     pub rays: PathBuf,
     /// Test ray i against sphere i

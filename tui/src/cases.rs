@@ -5,7 +5,8 @@
 
 use crate::error::stdout::Stdout;
 use crate::error::{Error, write_stdout};
-use crate::whole_file::{WholeFile, check_outputs};
+use crate::npy::{Output, bytes_of_row};
+use crate::whole_file::check_outputs;
 use clap::{ArgGroup, Args, value_parser};
 use spherule_kernel::Tier;
 use spherule_kernel::{Ray, Sphere, Vec3};
@@ -42,7 +43,7 @@ pub struct CasesArguments {
     /// Where to write spheres: .npy, float32, (N, 4): centre xyz, radius
     #[arg(long, value_name = "S.npy")]
     pub out_spheres: Option<PathBuf>,
-    /// Where to write rays: .npy, float32, (N, 8): origin xyz, direction xyz, `t_min`, `t_max`
+    /// Where to write rays: .npy, float32, (N, 8): origin xyz, direction xyz, t_min, t_max
     #[arg(long, value_name = "R.npy")]
     pub out_rays: Option<PathBuf>,
     /// Where to write the numbers of families: .npy, uint8, (N,)
@@ -77,20 +78,25 @@ pub fn cases(arguments: &CasesArguments) -> Result<(), Error> {
     let outputs: Vec<(&str, &Path)> =
         outputs.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?))).collect();
     check_outputs(&outputs, &[])?;
-    let mut spheres = Output::create(out_spheres.as_deref(), "<f4", (*count, Some(4)))?;
-    let mut rays = Output::create(out_rays.as_deref(), "<f4", (*count, Some(8)))?;
-    let mut numbers = Output::create(out_family.as_deref(), "|u1", (*count, None))?;
+    let create = |path: Option<&Path>, dtype: &str, shape: &[u64]| {
+        path.map(|path| Output::create(path, dtype, shape)).transpose()
+    };
+    let mut outputs = [
+        create(out_spheres.as_deref(), "<f4", &[*count, 4])?,
+        create(out_rays.as_deref(), "<f4", &[*count, 8])?,
+        create(out_family.as_deref(), "|u1", &[*count])?,
+    ];
     for index in 0..*count {
         let (family, case) = case(arguments, &families, index);
         let row = case.numbers();
-        spheres.write(|| bytes_of_row(&row[8..]))?;
-        rays.write(|| bytes_of_row(&row[..8]))?;
-        numbers.write(|| vec![family.number])?;
+        let rows = [bytes_of_row(&row[8..]), bytes_of_row(&row[..8]), vec![family.number]];
+        for (output, row) in outputs.iter_mut().zip(rows) {
+            output.as_mut().map_or(Ok(()), |output| output.write(&row))?;
+        }
     }
     // All files are whole before any of them gets its name.
-    let mut outputs = [spheres, rays, numbers];
-    outputs.iter_mut().try_for_each(Output::written)?;
-    outputs.into_iter().try_for_each(Output::finish)
+    outputs.iter_mut().flatten().try_for_each(Output::written)?;
+    outputs.into_iter().flatten().try_for_each(Output::finish)
 }
 
 /// Case `index`, and its family.
@@ -101,11 +107,6 @@ fn case(arguments: &CasesArguments, families: &[Family], index: u64) -> (Family,
     let case =
         if arguments.unit { family.seeded_unit(seed, index) } else { family.seeded(seed, index) };
     (family, case)
-}
-
-/// A row of an array.
-pub(crate) fn bytes_of_row(row: &[f32]) -> Vec<u8> {
-    row.iter().flat_map(|x| x.to_le_bytes()).collect()
 }
 
 /// A line a family.
@@ -148,55 +149,4 @@ fn line(family: Family, index: u64, case: &Case, t: Option<f32>) -> String {
         number(*radius),
     );
     line
-}
-
-/// An array that is being written, if it is asked for.
-struct Output(Option<(String, BufWriter<WholeFile>)>);
-
-impl Output {
-    fn create(
-        path: Option<&Path>,
-        dtype: &str,
-        (rows, columns): (u64, Option<u64>),
-    ) -> Result<Self, Error> {
-        let Some(path) = path else { return Ok(Self(None)) };
-        let name = path.display().to_string();
-        let failed = |error: io::Error| Error::of_output(&name, &error);
-        let mut file = BufWriter::new(WholeFile::create(path).map_err(failed)?);
-        let shape =
-            columns.map_or_else(|| format!("({rows},)"), |columns| format!("({rows}, {columns})"));
-        file.write_all(&header(dtype, &shape)).map_err(failed)?;
-        Ok(Self(Some((name, file))))
-    }
-
-    fn write(&mut self, bytes: impl FnOnce() -> Vec<u8>) -> Result<(), Error> {
-        let Some((name, file)) = &mut self.0 else { return Ok(()) };
-        file.write_all(&bytes()).map_err(|error| Error::of_output(name, &error))
-    }
-
-    /// Sees to it that all of the array is on the disk.
-    fn written(&mut self) -> Result<(), Error> {
-        let Some((name, file)) = &mut self.0 else { return Ok(()) };
-        let written = file.flush().and_then(|()| file.get_ref().written());
-        written.map_err(|error| Error::of_output(name, &error))
-    }
-
-    /// Gives the file its name.
-    fn finish(self) -> Result<(), Error> {
-        let Some((name, file)) = self.0 else { return Ok(()) };
-        let failed = |error: io::Error| Error::of_output(&name, &error);
-        let file = file.into_inner().map_err(|error| failed(error.into_error()))?;
-        file.finish().map_err(failed)
-    }
-}
-
-/// What a `.npy` file begins with: version 1, its data at a multiple of 64 bytes.
-pub(crate) fn header(dtype: &str, shape: &str) -> Vec<u8> {
-    let text = format!("{{'descr': '{dtype}', 'fortran_order': False, 'shape': {shape}, }}");
-    let padding = 63 - (10 + text.len()) % 64;
-    let text = text + &" ".repeat(padding) + "\n";
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((text.len() as u16).to_le_bytes());
-    bytes.extend(text.as_bytes());
-    bytes
 }

@@ -11,33 +11,15 @@ const LARGEST_SIDE: u16 = 4096;
 /// Arguments do not spell it `Option`, which clap takes for an option that may be missing.
 pub type Auto<T> = Option<T>;
 
-/// Reads `auto`, or the name of a value.
-pub fn auto_or<T>() -> impl TypedValueParser<Value = Auto<T>>
+/// Reads `auto`, or the name of a value; `help` says what `auto` chooses.
+pub fn auto_or<T>(help: &'static str) -> impl TypedValueParser<Value = Auto<T>>
 where
     T: ValueEnum + Send + Sync + 'static,
 {
     let names = T::value_variants().iter().filter_map(T::to_possible_value);
-    let auto = PossibleValue::new("auto").help("Whatever suits");
+    let auto = PossibleValue::new("auto").help(help);
     PossibleValuesParser::new([auto].into_iter().chain(names))
         .map(|text| T::from_str(&text, false).ok())
-}
-
-/// Reads the name of a value whose type is no [`ValueEnum`], because another crate defines it. Some values have a
-/// second name besides the one in lists.
-pub fn one_of<T>(
-    all: &'static [T],
-    name: fn(T) -> &'static str,
-    other_name: fn(T) -> Option<&'static str>,
-) -> impl TypedValueParser<Value = T>
-where
-    T: Copy + Send + Sync,
-{
-    let names =
-        all.iter().map(move |&value| PossibleValue::new(name(value)).aliases(other_name(value)));
-    PossibleValuesParser::new(names).try_map(move |text| {
-        let is_meant = |value: T| name(value) == text || other_name(value) == Some(&*text);
-        all.iter().copied().find(|&value| is_meant(value)).ok_or("a name that has no value")
-    })
 }
 
 /// The name of a value.

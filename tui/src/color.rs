@@ -50,7 +50,7 @@ impl FromStr for Srgb {
             .and_then(|digits| u32::from_str_radix(digits, 16).ok());
         match bytes {
             Some(number) => Ok(Self([(number >> 16) as u8, (number >> 8) as u8, number as u8])),
-            None => Err(format!("{text:?} is no colour: write \"#rrggbb\"")),
+            None => Err(format!("{text:?} is not a colour: write \"#rrggbb\"")),
         }
     }
 }
@@ -194,7 +194,7 @@ mod tests {
         let (first, last) = (1.01e-30_f32.to_bits(), 1e38_f32.to_bits());
         let worst = (first..=last).step_by(1867).map(f32::from_bits).map(ulps).fold(0.0, f64::max);
         assert!(worst <= 4.0, "{worst} ulp");
-        // Every number between 0.5 and 4, whose exponents leave each remainder by three.
+        // Every seventh number between 0.5 and 4, whose exponents leave each remainder by three.
         let all = (0.5_f32.to_bits()..4.0_f32.to_bits()).step_by(7).map(f32::from_bits);
         let worst = all.map(ulps).fold(0.0, f64::max);
         assert!(worst <= 4.0, "{worst} ulp");

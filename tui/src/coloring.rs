@@ -143,7 +143,7 @@ pub fn coloring(
             Some(column) => {
                 format!("column {} has no number to colour by; there are {has}", column.name)
             }
-            None => format!("no {} in this scene to colour by; it has {has}", by.name()),
+            None => format!("this scene has no {} to colour by; it has {has}", by.name()),
         }
     };
     let (colors, names): (Vec<_>, Vec<_>) = match by {

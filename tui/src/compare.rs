@@ -6,7 +6,7 @@ mod marks;
 pub mod split;
 pub mod verdict;
 
-use spherule_kernel::Tier;
+use spherule_kernel::{Tier, UnknownName};
 
 /// What a picture shows in place of the scene as one tier sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,17 +21,20 @@ impl Comparison {
     /// The comparison of this name: `error`, or `split:` and two tiers.
     #[must_use]
     pub fn named(text: &str) -> Option<Self> {
-        // Names are read as `--accuracy` reads them.
-        let tier = |name: &str| {
-            let name = if name == "algebraic" { "fast" } else { name };
-            Tier::ALL.into_iter().find(|tier| tier.as_str() == name)
-        };
         if text == "error" {
             return Some(Self::Errors);
         }
         let (left, right) = text.strip_prefix("split:")?.split_once(',')?;
-        Some(Self::Split([tier(left)?, tier(right)?]))
+        Some(Self::Split([tier(left).ok()?, tier(right).ok()?]))
     }
+}
+
+/// The lecture's name for the form that [`Tier::Fast`] computes.
+pub(crate) const ALGEBRAIC: &str = "algebraic";
+
+/// The tier of this name on the command line.
+pub(crate) fn tier(name: &str) -> Result<Tier, UnknownName> {
+    if name == ALGEBRAIC { Ok(Tier::Fast) } else { name.parse() }
 }
 
 /// A number with a comma before every three digits.

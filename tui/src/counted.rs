@@ -1,6 +1,6 @@
 //! Numbers of things, in the singular or the plural.
 
-/// So many of something.
+/// Formats a count with its noun: 1 atom, 2 atoms.
 pub(crate) fn counted(count: u64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

@@ -16,7 +16,7 @@ use crate::samples::CellSamples;
 use crate::scene::Scene;
 use crate::structure::Structure;
 use crate::structure::choose::Workload;
-use crate::structure::scene::{PictureSearch, Setting};
+use crate::structure::picture_search::{PictureSearch, Setting};
 use crate::structure::search::{Search, Tracing};
 use crate::style::Style;
 use crate::threads::Threads;
@@ -98,7 +98,7 @@ const BESIDE: usize = 4;
 /// The first column of a part is a multiple of this, as packets and the pattern of dither need it.
 const ALIGNED: u16 = 8;
 
-/// Draws, and keeps its memory from frame to frame.
+/// Draws pictures, and keeps its memory from frame to frame.
 #[derive(Debug)]
 pub struct Renderer<'a> {
     level: Level,

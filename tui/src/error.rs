@@ -59,10 +59,29 @@ pub fn cause(error: &io::Error) -> String {
     text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }
 
+/// The line and the column of a byte of `text`, in characters, both from 1.
+pub(crate) fn place_in(text: &str, byte: usize) -> (usize, usize) {
+    let before = text.get(..byte).unwrap_or(text);
+    let line = before.matches('\n').count() + 1;
+    let column = before.chars().rev().take_while(|&letter| letter != '\n').count() + 1;
+    (line, column)
+}
+
 /// Writes all `bytes` to standard output.
 ///
 /// # Errors
 /// [`Error`] if that fails.
 pub fn write_stdout(bytes: &[u8]) -> Result<(), Error> {
     broken_off::write(bytes).map_err(|error| Error::of_output("standard output", &error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_counted_in_lines_and_characters() {
+        let places = [0, 1, 2, 4, 6].map(|byte| place_in("a\nßb\n", byte));
+        assert_eq!(places, [(1, 1), (1, 2), (2, 1), (2, 2), (3, 1)]);
+    }
 }

@@ -8,12 +8,13 @@ mod asked_again;
 mod command;
 mod report;
 
-use crate::error::{Error, cause, write_stdout};
+use crate::error::{Error, cause, place_in, write_stdout};
 use crate::npy::ray;
 use arrays::{Answers, Array, DTYPE_F4, DTYPE_U1, paired_rows};
 use asked_again::make_smaller;
 use clap::Args;
 use report::Report;
+use serde::Deserialize;
 use spherule_kernel::{Ray, Sphere};
 use spherule_referee::failure::Failure;
 use spherule_referee::families::FAMILIES;
@@ -24,6 +25,7 @@ use spherule_referee::verdict::Kind;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use toml::de::{DeTable, Deserializer};
 
 /// Rows that are read at once.
 const ROWS: usize = 1 << 14;
@@ -36,7 +38,7 @@ pub struct JudgeArguments {
     /// Spheres: .npy, float32, (N, 4): centre xyz, radius
     #[arg(long, value_name = "S.npy")]
     pub spheres: PathBuf,
-    /// Rays: .npy, float32, (M, 8): origin xyz, direction xyz, `t_min`, `t_max`
+    /// Rays: .npy, float32, (M, 8): origin xyz, direction xyz, t_min, t_max
     #[arg(long, value_name = "R.npy")]
     pub rays: PathBuf,
     /// Answers: .npy, float32 or float64, (M,), +inf if a ray has no hit
@@ -48,7 +50,7 @@ pub struct JudgeArguments {
     /// Test ray i against sphere i
     #[arg(long)]
     pub pairs: bool,
-    /// The family of each ray, as `spherule cases` writes them: .npy, uint8, (M,)
+    /// The family of each ray, as spherule cases writes them: .npy, uint8, (M,)
     #[arg(long, value_name = "F.npy")]
     pub family: Option<PathBuf>,
     /// Where the program's rules are not Spherule's: a .toml file
@@ -151,7 +153,9 @@ fn read_families(families: &mut Array, from: u64, count: usize) -> Result<Vec<u8
         None => Ok(numbers),
         Some(place) => {
             let (row, number) = (from + place as u64, numbers[place]);
-            let what = format!("row {row}: no family {number}; 0 to {}", FAMILIES.len() - 1);
+            let last = FAMILIES.len() - 1;
+            let what =
+                format!("row {row}: no family has the number {number}; they are 0 to {last}");
             Err(families.wrong(&what))
         }
     }
@@ -164,9 +168,10 @@ fn rules(path: Option<&Path>, answers: &Answers) -> Result<Rules, Error> {
     let wrong = |what: &str| Error::Input(format!("{}: {what}", path.display()));
     let text = rules_text(path).map_err(|what| wrong(&what))?;
     let in_a_line = |error| in_a_line(path, &text, &error);
-    let mut rules: Rules = toml::from_str(&text).map_err(in_a_line)?;
-    let stated: toml::Table = toml::from_str(&text).map_err(in_a_line)?;
-    if !stated.contains_key("precision") {
+    let table = DeTable::parse(&text).map_err(in_a_line)?;
+    let states_precision = table.get_ref().contains_key("precision");
+    let mut rules = Rules::deserialize(Deserializer::from(table)).map_err(in_a_line)?;
+    if !states_precision {
         rules.precision = usual;
     }
     if rules.precision == Precision::F64 && !answers.are_double() {
@@ -189,10 +194,7 @@ fn rules_text(path: &Path) -> Result<String, String> {
 
 /// The place of the error in the file, and the first line of its message.
 fn in_a_line(path: &Path, text: &str, error: &toml::de::Error) -> Error {
-    let place = error.span().map_or(0, |span| span.start);
-    let before = text.get(..place).unwrap_or(text);
-    let line = before.matches('\n').count() + 1;
-    let column = before.chars().rev().take_while(|&letter| letter != '\n').count() + 1;
+    let (line, column) = place_in(text, error.span().map_or(0, |span| span.start));
     let what = error.message().lines().next().unwrap_or_default();
     Error::Input(format!("{}:{line}:{column}: {what}", path.display()))
 }

@@ -1,13 +1,15 @@
-//! Arrays in numpy's `.npy` files, written and read by the crate `npyz`, behind checks that it
+//! Arrays in numpy's `.npy` files, whose headers the crate `npyz` reads, behind checks that it
 //! does not make: a header may lie about its own length and about the array's.
 
+mod written;
+
 use crate::error::{Error, cause};
-use crate::whole_file::WholeFile;
-use npyz::{DType, NpyHeader, Order, Serialize, WriteOptions, WriterBuilder};
+use npyz::{NpyHeader, Order};
 use spherule_kernel::{Ray, Vec3};
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, IntoInnerError, Read};
+use std::io::{BufReader, Read};
 use std::path::Path;
+pub(crate) use written::{Output, bytes_of_row, header};
 
 /// The longest header: one that states a type, an order and a shape takes some hundred bytes.
 const LONGEST_HEADER: usize = 1024;
@@ -188,50 +190,6 @@ pub(crate) fn ray([x, y, z, dx, dy, dz, t_min, t_max]: [f32; 8]) -> Ray {
     Ray { origin: Vec3::new(x, y, z), direction: Vec3::new(dx, dy, dz), t_min, t_max }
 }
 
-/// A one-dimensional array that is whole on the disk, and has not got its name yet.
-#[derive(Debug)]
-pub struct Column {
-    name: String,
-    file: WholeFile,
-}
-
-impl Column {
-    /// Writes an array of the type that numpy calls `dtype`.
-    ///
-    /// # Errors
-    /// [`Error::Running`] if the file cannot be written. Then there is no file of this name, or it is as it was.
-    pub fn write<T: Serialize>(
-        path: &Path,
-        dtype: &str,
-        values: impl ExactSizeIterator<Item = T>,
-    ) -> Result<Self, Error> {
-        let write = || {
-            let dtype = dtype.parse().map_err(io::Error::other)?;
-            let mut file = BufWriter::new(WholeFile::create(path)?);
-            let options =
-                WriteOptions::new().dtype(DType::Plain(dtype)).shape(&[values.len() as u64]);
-            let mut writer = options.writer(&mut file).begin_nd()?;
-            writer.extend(values)?;
-            writer.finish()?;
-            let file = file.into_inner().map_err(IntoInnerError::into_error)?;
-            file.written().map(|()| file)
-        };
-        let name = path.display().to_string();
-        match write() {
-            Ok(file) => Ok(Self { name, file }),
-            Err(error) => Err(Error::of_output(&name, &error)),
-        }
-    }
-
-    /// Gives it its name.
-    ///
-    /// # Errors
-    /// As [`Self::write`].
-    pub fn finish(self) -> Result<(), Error> {
-        self.file.finish().map_err(|error| Error::of_output(&self.name, &error))
-    }
-}
-
 /// The header, once it is known to be harmless.
 pub(crate) fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
     let mut bytes = Vec::new();
@@ -239,13 +197,13 @@ pub(crate) fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
         let read = reader.take(count as u64).read_to_end(bytes);
         match read {
             Ok(read) if read == count => Ok(()),
-            Ok(_) => Err("no .npy file: it ends within its header".to_owned()),
+            Ok(_) => Err("not a .npy file: it ends within its header".to_owned()),
             Err(error) => Err(cause(&error)),
         }
     };
     take(8, &mut bytes)?;
     if !bytes.starts_with(b"\x93NUMPY") {
-        return Err("no .npy file".to_owned());
+        return Err("not a .npy file".to_owned());
     }
     let length = match bytes[6] {
         1 => 2,
@@ -255,7 +213,7 @@ pub(crate) fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
     take(length, &mut bytes)?;
     let size = bytes[8..].iter().rev().fold(0, |size, &byte| size << 8 | usize::from(byte));
     if size > LONGEST_HEADER {
-        return Err(format!("a header of {size} bytes is none of a plain array of numbers"));
+        return Err(format!("a header of {size} bytes is not that of a plain array of numbers"));
     }
     take(size, &mut bytes)?;
     let text = &bytes[8 + length..];
@@ -264,13 +222,15 @@ pub(crate) fn read_header(reader: &mut impl Read) -> Result<NpyHeader, String> {
     }
     let brackets = text.iter().filter(|byte| matches!(byte, b'(' | b'[' | b'{')).count();
     if brackets > MOST_BRACKETS {
-        return Err(format!("a header of {brackets} brackets is none of a plain array of numbers"));
+        return Err(format!(
+            "a header of {brackets} brackets is not that of a plain array of numbers"
+        ));
     }
     NpyHeader::from_reader(bytes.as_slice()).map_err(|error| {
         let what = cause(&error);
         // The parser draws where it has stopped, in several lines: at `3L`, as Python 2 writes an integer.
         match what.contains('\n') {
-            true => "a header that is no Python 3 dictionary".to_owned(),
+            true => "the header is not a Python 3 dictionary".to_owned(),
             false => what,
         }
     })

@@ -3,6 +3,7 @@
 //! In the palettes the nearest colour is the one that looks nearest: by distance in `OKLab`.
 
 use crate::color::{Srgb, oklab};
+use crate::counted::counted;
 use spherule_kernel::Vec3;
 use std::str::FromStr;
 
@@ -111,7 +112,10 @@ impl FromStr for Theme {
             .collect::<Result<Vec<_>, _>>()
             .map_err(|_| format!("{names}, or 16 colours such as cd0000,00cd00"))?;
         let count = colors.len();
-        let colors = colors.try_into().map_err(|_| format!("{count} colours in place of 16"))?;
+        let colors = colors.try_into().map_err(|_| {
+            let colors = counted(count as u64, "colour");
+            format!("{colors}; 16 are needed")
+        })?;
         Ok(Self { colors, papers: 16 })
     }
 }
@@ -215,8 +219,9 @@ mod tests {
         let error = |text: &str| text.parse::<Theme>().expect_err(text);
         assert!(error("amber").contains("solarized"));
         assert!(error("").contains("16 colours"));
-        assert_eq!(error(&["000000"; 15].join(",")), "15 colours in place of 16");
-        assert_eq!(error(&["000000"; 17].join(",")), "17 colours in place of 16");
+        assert_eq!(error("000000"), "1 colour; 16 are needed");
+        assert_eq!(error(&["000000"; 15].join(",")), "15 colours; 16 are needed");
+        assert_eq!(error(&["000000"; 17].join(",")), "17 colours; 16 are needed");
         assert!(error(&["00000"; 16].join(",")).contains("such as"));
     }
 

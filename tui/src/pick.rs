@@ -3,7 +3,7 @@
 pub mod report;
 
 use crate::scene::Scene;
-use crate::structure::scene::PictureSearch;
+use crate::structure::picture_search::PictureSearch;
 use crate::structure::search::{Scratch, Tracing};
 use crate::style::Style;
 use crate::view::View;

@@ -14,10 +14,9 @@ pub mod sixel;
 
 use crate::choice::Auto;
 use crate::picture::Image;
-use crate::terminal::Abilities;
 use crate::terminal::multiplexer::Multiplexer;
+use crate::terminal::{Abilities, variable};
 use clap::ValueEnum;
-use std::env;
 
 /// What terminals of many kinds are called.
 const GENERAL: [&str; 5] = ["xterm-256color", "xterm", "xterm-color", "xterm-new", "xterm-direct"];
@@ -89,10 +88,6 @@ fn is_known_for_iterm2(program: &str, term: &str) -> bool {
         "WezTerm" => term == "wezterm" || GENERAL.contains(&term),
         _ => false,
     }
-}
-
-fn variable(name: &str) -> String {
-    env::var_os(name).unwrap_or_default().to_string_lossy().into_owned()
 }
 
 impl Protocol {

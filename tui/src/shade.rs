@@ -12,7 +12,7 @@ pub mod silhouettes;
 use crate::picture::Picture;
 use crate::scene::{Light, Scene, Source};
 use crate::structure::openness::OpennessMemory;
-use crate::structure::scene::PictureSearch;
+use crate::structure::picture_search::PictureSearch;
 use crate::structure::search::{Scratch, Search, Tracing};
 use crate::threads::Threads;
 use exposure::{Exposure, STEEPNESS};

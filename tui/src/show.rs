@@ -66,7 +66,7 @@ pub fn show(arguments: &PictureArguments) -> Result<(), Error> {
     let colored =
         colored.map_err(|error| Error::Input(format!("{}: {error}", arguments.scene.name)))?;
     if !in_viewer && crowd.range.is_some() && !colored.has_numbers() {
-        let what = format!("--range: for numbers; colours are by {}", color_by.name());
+        let what = format!("--range needs a column of numbers; colours are by {}", color_by.name());
         return Err(Error::Input(what));
     }
     let ComputingArguments { structure, level, threads } = arguments.computing;

@@ -5,6 +5,7 @@
 pub mod choose;
 pub mod object_order;
 pub mod openness;
+pub mod picture_search;
 pub mod scene;
 pub mod screen;
 pub mod search;
@@ -27,7 +28,7 @@ pub enum Order {
 pub enum Structure {
     /// All spheres, from end to end
     Brute,
-    /// The spheres by their depth, sorted for every picture
+    /// The spheres by their depth, for rays that share an origin or a direction; other rays search all
     #[value(alias = "tiles")]
     DepthList,
     /// A tree of boxes, built once

@@ -16,6 +16,7 @@ mod signals;
 mod size;
 mod tty;
 mod unanswered;
+mod variable;
 mod wish;
 
 use crate::error::caught::before_message;
@@ -28,10 +29,10 @@ use multiplexer::Multiplexer;
 pub use reply::Reply;
 pub use size::{pixels_of_cell, size_of_stdout};
 use std::collections::VecDeque;
-use std::env;
 use std::io;
 use std::sync::Once;
 use std::time::{Duration, Instant};
+pub(crate) use variable::variable;
 pub use wish::{Wish, wish};
 
 /// The most events that are taken before something is drawn all the same: whoever pastes a file sees something.
@@ -75,9 +76,8 @@ impl Terminal {
 
     fn ask(&mut self, uses: Uses) -> io::Result<()> {
         self.input.await_answers(true);
-        let term = env::var_os("TERM").unwrap_or_default();
         let multiplexer = Multiplexer::of_process();
-        screen::show(&questions(&term.to_string_lossy(), multiplexer, uses))?;
+        screen::show(&questions(&variable("TERM"), multiplexer, uses))?;
         // tmux itself answers first; the terminal behind it may never be asked.
         self.awaits_behind = uses.kitty && multiplexer == Some(Multiplexer::Tmux);
         let asked = Instant::now();

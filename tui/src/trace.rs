@@ -9,7 +9,7 @@ mod report;
 use crate::arguments::{ComputingArguments, TraceArguments};
 use crate::choice::name;
 use crate::error::{Error, write_stdout};
-use crate::npy::{self, Column};
+use crate::npy::{self, Output};
 use crate::structure::Structure;
 use crate::structure::scene::SceneStructures;
 use crate::structure::search::Tracing;
@@ -39,7 +39,7 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
         (Query::Pairs, None) => Some(Structure::Brute),
         (Query::Pairs, Some(other)) if other != Structure::Brute => {
             let what = format!(
-                "--pairs with --structure {}: pairs need no structure; auto or brute",
+                "--pairs with --structure {}: pairs need no structure; say auto or brute",
                 name(&other)
             );
             return Err(Error::Input(what));
@@ -76,12 +76,12 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
         Some(_) if arguments.pairs => index as i32,
         Some(hit) => hit.sphere as i32,
     };
-    let t = hits.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t));
-    let ids = hits.iter().enumerate().map(id);
-    let out_t = arguments.out_t.as_ref().map(|path| Column::write(path, "<f4", t)).transpose()?;
-    let out_id = arguments.out_id.as_ref().map(|path| Column::write(path, "<i4", ids));
+    let t = hits.iter().map(|hit| hit.map_or(f32::INFINITY, |hit| hit.t).to_le_bytes());
+    let ids = hits.iter().enumerate().map(|hit| id(hit).to_le_bytes());
+    let out_t = arguments.out_t.as_ref().map(|path| written(path, "<f4", t)).transpose()?;
+    let out_id = arguments.out_id.as_ref().map(|path| written(path, "<i4", ids)).transpose()?;
     // Both files are whole before one of them gets its name.
-    [out_t, out_id.transpose()?].into_iter().flatten().try_for_each(Column::finish)?;
+    [out_t, out_id].into_iter().flatten().try_for_each(Output::finish)?;
     let report = Report {
         rays: rays.len(),
         spheres: list.len(),
@@ -97,6 +97,18 @@ pub fn trace(arguments: &TraceArguments) -> Result<(), Error> {
     };
     let text = if arguments.json { report.json() } else { report.line() };
     write_stdout(text.as_bytes())
+}
+
+/// An array of one dimension, of numbers of four bytes, which is whole on the disk.
+fn written(
+    path: &Path,
+    dtype: &str,
+    mut numbers: impl ExactSizeIterator<Item = [u8; 4]>,
+) -> Result<Output, Error> {
+    let mut output = Output::create(path, dtype, &[numbers.len() as u64])?;
+    numbers.try_for_each(|number| output.write(&number))?;
+    output.written()?;
+    Ok(output)
 }
 
 /// Refuses arrays on standard output, which has the line about them, two of them in one file, and one in place of an input.

@@ -96,7 +96,6 @@ pub fn run(
         scene,
         changes: 0,
         film,
-        order: structures.order(),
         surroundings,
         pixels: Pixels::new(asked.output, &terminal),
         terminal,

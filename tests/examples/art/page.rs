@@ -1,4 +1,4 @@
-//! The page.
+//! The page `docs/benchmarks/art.md`.
 
 use super::modes::{SCENES, SIZE};
 use super::motion::{FRAMES, STEP};

@@ -31,6 +31,8 @@ impl Variant {
                 self.ask_tree(refitted, &mut Trace::new().with(coherence), rays)
             }
             Structure::Stream(count) => {
+                // More than there are rays is never used. A count above a hundred stays above it.
+                let count = count.min(rays.len().next_multiple_of(16).max(112));
                 // The least memory that a few rays need; for more rays, as much as queues like to
                 // have.
                 let needed = StreamMemory::queues_needed(count);

@@ -55,7 +55,7 @@ pub fn assert_same_from(viewpoint: Viewpoint, tiers: &[Tier], rays: &[Ray], sphe
         let Answers { hits: expected, .. } = brute(tier).ask(structures, rays);
         let is_asked = |variant: &Variant| match variant.layer {
             _ if variant.tier != tier || variant.structure == Structure::List => false,
-            // This structure has loops of one lane only.
+            // This structure is traversed by one lane only.
             Layer::Lanes(1) if variant.structure == Structure::Bvh4 => true,
             Layer::Ray | Layer::SliceAt(_) => rays.len() * spheres.len() < 20_000,
             // The same loops as the baseline's, in another width.

@@ -23,7 +23,7 @@ pub struct CrowdArguments {
     /// chain if there are several, else scene]
     #[arg(long, value_name = "WHAT")]
     pub color_by: Option<ColorBy>,
-    /// The numbers with the darkest and the lightest colour, with --color-by a column [default: the least and the
+    /// The numbers that get the darkest and the lightest colour; needs --color-by COLUMN [default: the least and the
     /// largest of the frames so far]
     #[arg(long, value_name = "LOW:HIGH", requires = "color_by", allow_hyphen_values = true)]
     pub range: Option<Range>,
@@ -31,15 +31,18 @@ pub struct CrowdArguments {
     #[arg(long, conflicts_with_all = ["png", "pick", "cast"])]
     pub legend: bool,
     /// Darken spheres where others block light; auto: if there are chains
-    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    #[arg(value_parser = auto_or::<Switch>("On if there are chains"))]
     #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "on")]
     pub occlusion: Auto<Switch>,
     /// Darken edges before far things, and around chains; auto: if there are chains
-    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    #[arg(value_parser = auto_or::<Switch>("On if there are chains"))]
     #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "on")]
     pub edges: Auto<Switch>,
     /// Fade what is far away; auto: if there are chains
-    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = auto_or::<Switch>())]
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    #[arg(value_parser = auto_or::<Switch>("On if there are chains"))]
     #[arg(num_args = 0..=1, require_equals = true, default_missing_value = "on")]
     pub depth_cue: Auto<Switch>,
 }

@@ -2,7 +2,6 @@
 
 use crate::error::Error;
 use crate::scene::file_name::FileName;
-use crate::scene::format::Format;
 use crate::scene::frames::Frames;
 use crate::scene::open::{Opened, open};
 use crate::scene::reading::Reading;
@@ -13,18 +12,9 @@ use std::ops::Range;
 /// A file, and which of its frames.
 #[derive(Args, Clone, Debug, Default)]
 pub struct FileArguments {
-    /// Format of the scene [default: by content; .gz and .bz2 are unpacked]
-    #[arg(long, value_name = "FORMAT")]
-    pub format: Option<Format>,
-    /// Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1
-    #[arg(long, value_name = "X,Y,Z[,R]")]
-    pub columns: Option<String>,
-    /// Refuse particles of unknown types, which are drawn grey otherwise
-    #[arg(long)]
-    pub strict: bool,
-    /// The file that says what the particles of an .xtc are
-    #[arg(long, value_name = "FILE")]
-    pub topology: Option<FileName>,
+    /// How it is read.
+    #[command(flatten)]
+    pub reading: Reading,
     /// The frame that is shown first, from 0 [default: the first with particles]
     #[arg(long, value_name = "N", conflicts_with = "frames", allow_negative_numbers = true)]
     pub frame: Option<usize>,
@@ -57,13 +47,7 @@ impl FileArguments {
     /// [`Error::Input`] if there is no such scene or frame, or it cannot be read.
     pub fn open(&self, name: &FileName) -> Result<Subject, Error> {
         let wrong = |error: ReadError| Error::Input(error.to_string());
-        let reading = Reading {
-            format: self.format,
-            columns: self.columns.clone(),
-            topology: self.topology.clone(),
-            strict: self.strict,
-            follow: self.follow,
-        };
+        let reading = Reading { follow: self.follow, ..self.reading.clone() };
         let one = |frame: usize| frame..frame.saturating_add(1);
         let asked = self.frames.clone().unwrap_or(self.frame.map_or(0..usize::MAX, one));
         let first = asked.start;

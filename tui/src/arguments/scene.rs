@@ -19,7 +19,7 @@ pub struct SceneArguments {
     /// A built-in scene, a file, or - for standard input; --format lists the formats that are told by content
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
     pub name: FileName,
-    /// Picture size in cells, each 1 to 4096, without the viewer [default: 80x24; on a terminal all rows but the last]
+    /// Write one picture of this size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]
     #[arg(long, value_name = "COLSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
     /// Rays a cell, 1 to 256; auto: more where they are needed
@@ -37,7 +37,7 @@ pub struct SceneArguments {
     /// The vertical field of view in degrees; in parallel projection, the angle at which the eye sees the height at the target
     #[arg(long, value_name = "DEGREES", value_parser = field_of_view, allow_negative_numbers = true)]
     pub fov: Option<f64>,
-    /// Then lead the eye around the target: degrees right, degrees up
+    /// Turn the eye around the target, after --eye and --target: degrees right, degrees up
     #[arg(long, value_name = "RIGHT,UP", value_parser = orbit, allow_hyphen_values = true)]
     pub orbit: Option<[f32; 2]>,
     /// Which loop is the outer one, over rays or spheres; object excludes --structure
@@ -85,7 +85,7 @@ impl SceneArguments {
         // The shape of the picture only moves an eye that no one has placed.
         let view = self.placed(scene, 1.0);
         if (self.eye.is_some() || self.target.is_some()) && view.eye == view.target {
-            return Err("the camera's target is its eye: another --eye or --target".to_owned());
+            return Err("the camera's target is its eye; give another --eye or --target".to_owned());
         }
         Ok(())
     }

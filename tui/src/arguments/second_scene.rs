@@ -1,4 +1,4 @@
-//! What is wrong with a word behind others: it is a second scene, or a command, or the first word was to be one. What was meant by that.
+//! Messages about a word behind the scene, which is a second scene or a command, and about a first word that was to be a command.
 
 use crate::scene::builtin::{builtin, shipped_file};
 use crate::scene::file_name::FileName;

@@ -47,7 +47,7 @@ fn every_option_is_read() {
     assert_eq!(arguments.charset, Some(Charset::Half));
     assert_eq!(arguments.color, ColorChoice::Ansi256);
     assert_eq!(arguments.scene.projection, Some(LensKind::Parallel));
-    assert_eq!(arguments.scene.file.format, Some(crate::scene::format::Format::Xyz));
+    assert_eq!(arguments.scene.file.reading.format, Some(crate::scene::format::Format::Xyz));
     assert_eq!(arguments.cell_aspect, Some(0.75));
     assert_eq!(arguments.background, Some(Srgb([0xff, 0xee, 0xdd])));
     assert_eq!(picture("--background FFeedd").background, arguments.background);
@@ -80,7 +80,7 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--samples 257", "auto, or 1 to 256"),
         ("--charset sixel", "auto, ascii, half, quadrant, sextant, octant, braille, block"),
         ("--palette amber", "xterm, vga, tango, solarized"),
-        ("--palette 000000,ffffff", "2 colours in place of 16"),
+        ("--palette 000000,ffffff", "2 colours; 16 are needed"),
         ("--accuracy sloppy", "fast, geometric, stable, exact"),
         ("--structure octree", "auto, brute, depth-list, bvh"),
         ("--order pixel", "image, object"),
@@ -126,9 +126,9 @@ fn what_is_wrong_is_said_in_one_line() {
         ("--cast a --png b", "cannot be used with"),
         ("--cast a --output kitty", "cannot be used with"),
         ("--output pixels", "auto, cells, kitty, sixel, iterm2"),
-        ("--background red", "\"red\" is no colour: write \"#rrggbb\""),
-        ("--background ##ffeedd", "is no colour"),
-        ("--background #ffeeddcc", "is no colour"),
+        ("--background red", "\"red\" is not a colour: write \"#rrggbb\""),
+        ("--background ##ffeedd", "is not a colour"),
+        ("--background #ffeeddcc", "is not a colour"),
         ("a b", "'b' is a second scene; one is shown"),
         ("--once unit a.toml", "'a.toml' is a second scene; one is shown"),
         ("unit cases", "cases is a command; it comes first, its options behind it"),
@@ -182,7 +182,8 @@ fn an_eye_on_the_target_sees_nothing() {
     ] {
         match picture(line).scene.open() {
             Err(Error::Input(message)) => {
-                let expected = "unit: the camera's target is its eye: another --eye or --target";
+                let expected =
+                    "unit: the camera's target is its eye; give another --eye or --target";
                 assert_eq!(message, expected, "{line}");
             }
             other => panic!("{line}: {other:?}"),
@@ -234,6 +235,30 @@ fn the_help_of_tradeoff_has_what_it_takes() {
     let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(help.contains("--frame <N>") && !help.contains("--frames"), "{help}");
     assert!(help.contains("1 to 4096 [default: 80x24] --samples"), "{help}");
+}
+
+/// A terminal shows them as they are.
+#[test]
+fn no_help_has_backticks() {
+    for command in ["", "trace ", "tradeoff ", "cases ", "judge ", "lecture ", "generate "] {
+        let Ok(Request::Print(help)) = parsed(&format!("{command}--help")) else {
+            panic!("{command}: no help")
+        };
+        assert!(!help.contains('`'), "{command}: {help}");
+    }
+}
+
+#[test]
+fn the_help_says_what_auto_chooses() {
+    let Ok(Request::Print(help)) = parsed("--help") else { panic!("no help") };
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    for what in [
+        "auto: Half with colour, ascii without colour or Unicode",
+        "auto: The one that takes the least time",
+        "auto: On if there are chains",
+    ] {
+        assert!(help.contains(what), "{what}: {help}");
+    }
 }
 
 #[test]

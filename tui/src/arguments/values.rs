@@ -1,11 +1,11 @@
 //! Values of options, read from their words.
 
 use super::overlay::Overlay;
-use crate::choice::{Auto, one_of};
+use crate::choice::Auto;
 use crate::color::Srgb;
-use crate::compare::Comparison;
+use crate::compare::{self, ALGEBRAIC, Comparison};
 use crate::samples::MOST_SAMPLES;
-use clap::builder::TypedValueParser;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::DVec3;
 use spherule_kernel::{Level, LevelName, Tier};
 use std::ops::RangeInclusive;
@@ -87,14 +87,18 @@ pub(super) fn color(text: &str) -> Result<Srgb, String> {
     text.parse().or_else(|error| format!("#{text}").parse().map_err(|_: String| error))
 }
 
-/// A tier. `algebraic` is the lecture's name for the form that `fast` computes.
+/// A tier. One has a second name, which lists do not show.
 pub(super) fn tier() -> impl TypedValueParser<Value = Tier> {
-    one_of(&Tier::ALL, Tier::as_str, |tier| (tier == Tier::Fast).then_some("algebraic"))
+    let name = |tier: Tier| {
+        PossibleValue::new(tier.as_str()).aliases((tier == Tier::Fast).then_some(ALGEBRAIC))
+    };
+    PossibleValuesParser::new(Tier::ALL.map(name)).try_map(|name| compare::tier(&name))
 }
 
 /// A level that this CPU has.
 pub(super) fn level() -> impl TypedValueParser<Value = Level> {
-    one_of(&LevelName::ALL, LevelName::as_str, |_| None).try_map(|name| {
+    let names = PossibleValuesParser::new(LevelName::ALL.map(LevelName::as_str));
+    names.try_map(|name| name.parse::<LevelName>()).try_map(|name| {
         Level::named(name).ok_or_else(|| format!("this CPU has no {}", name.as_str()))
     })
 }

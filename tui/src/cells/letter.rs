@@ -4,6 +4,7 @@ use super::columns::{LANES, Line, order};
 use super::masks::Cover;
 use crate::ink::{DEJAVU_SANS_MONO, UNIFONT, coverage};
 use std::array;
+use std::ops::{Add, Div};
 use std::sync::LazyLock;
 use wide::f32x8;
 
@@ -33,6 +34,17 @@ impl Letter {
     }
 }
 
+/// The means of 2 x 4 parts.
+pub(super) fn of_parts<T>(bins: &[T; BINS]) -> [T; 8]
+where
+    T: Copy + Add<Output = T> + Div<f32, Output = T>,
+{
+    array::from_fn(|part| {
+        let first = part / 2 * 8 + part % 2 * 2;
+        (bins[first] + bins[first + 1] + bins[first + 4] + bins[first + 5]) / 4.0
+    })
+}
+
 /// All letters, the space first.
 pub(super) static LETTERS: LazyLock<Vec<Letter>> = LazyLock::new(|| {
     let letter = |glyph| {
@@ -40,10 +52,7 @@ pub(super) static LETTERS: LazyLock<Vec<Letter>> = LazyLock::new(|| {
         let (one, other) = (ink(&UNIFONT), ink(&DEJAVU_SANS_MONO));
         let ink: [f32; BINS] = array::from_fn(|bin| (one[bin] + other[bin]) / 2.0);
         let mean = ink.iter().sum::<f32>() / BINS as f32;
-        let cover = array::from_fn(|part| {
-            let first = part / 2 * 8 + part % 2 * 2;
-            (ink[first] + ink[first + 1] + ink[first + 4] + ink[first + 5]) / 4.0
-        });
+        let cover = of_parts(&ink);
         let energy = ink.iter().map(|ink| (ink - mean) * (ink - mean)).sum();
         let mut places = order(ACROSS, BINS);
         let ink = array::from_fn(|_| {
@@ -53,3 +62,14 @@ pub(super) static LETTERS: LazyLock<Vec<Letter>> = LazyLock::new(|| {
     };
     (' '..='~').map(letter).collect()
 });
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_is_two_bins_by_two() {
+        let bins = array::from_fn(|bin| bin as f32);
+        assert_eq!(of_parts(&bins), [2.5, 4.5, 10.5, 12.5, 18.5, 20.5, 26.5, 28.5]);
+    }
+}

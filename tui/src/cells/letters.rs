@@ -13,7 +13,7 @@ use super::change;
 use super::eye::Eye;
 use super::fitted::{FitMemory, Fitted, rank};
 use super::layers::{Medians, mixed};
-use super::letter::{ACROSS, BINS, LETTERS, Letter};
+use super::letter::{ACROSS, BINS, LETTERS, Letter, of_parts};
 use super::tone;
 use crate::color::roots;
 use crate::style::ColorDepth;
@@ -119,14 +119,6 @@ impl LetterFitter {
         }
         least.1
     }
-}
-
-/// The means of 2 x 4 parts.
-fn of_parts(bins: &[Vec3; BINS]) -> [Vec3; 8] {
-    array::from_fn(|part| {
-        let first = part / 2 * 8 + part % 2 * 2;
-        (bins[first] + bins[first + 1] + bins[first + 4] + bins[first + 5]) / 4.0
-    })
 }
 
 /// The part of a step that leaves ink and paper between black and full light.

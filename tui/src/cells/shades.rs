@@ -29,7 +29,7 @@ const DOTS: f32 = 0.02;
 /// Entries that are tried for ink and for paper.
 const NEAREST: usize = 3;
 
-/// Two entries and a glyph: what they look like together.
+/// How two palette entries look in one glyph.
 #[derive(Clone, Copy, Debug)]
 struct Shade {
     glyph: char,

@@ -114,7 +114,7 @@ fn what_a_scene_does_not_have_is_said_with_what_it_has() {
     for by in ["residue", "charge"] {
         let error = colored(attributes(), by, None).expect_err("missing");
         let expected =
-            format!("no {by} in this scene to colour by; it has scene, element, chain, b_factor");
+            format!("this scene has no {by} to colour by; it has scene, element, chain, b_factor");
         assert_eq!(error, expected);
     }
     assert!("".parse::<ColorBy>().is_err());

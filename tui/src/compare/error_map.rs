@@ -7,7 +7,7 @@ use super::verdict::{Class, Counts, Verdict};
 use crate::draw::{Effort, sample_grid};
 use crate::samples::CellSamples;
 use crate::scene::Scene;
-use crate::structure::scene::PictureSearch;
+use crate::structure::picture_search::PictureSearch;
 use crate::structure::search::{Scratch, Tracing};
 use crate::style::Style;
 use crate::threads::Threads;

@@ -6,7 +6,7 @@ use super::grouped;
 use crate::cells::{CellGrid, Color};
 use crate::draw::{Drawn, Effort, Renderer, Spending, sample_grid};
 use crate::scene::Scene;
-use crate::structure::scene::PictureSearch;
+use crate::structure::picture_search::PictureSearch;
 use crate::style::{Charset, Style};
 use crate::view::View;
 use spherule_kernel::{Camera, ClosestHit, RayPacket, Stages, Tier, stages};

@@ -68,8 +68,6 @@ pub struct Worst {
 /// What many verdicts come to, in rays.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Both miss.
-    pub misses: u64,
     /// Same sphere, same t.
     pub right: u64,
     /// Same sphere, t off: counted by the power of two of their ulp.
@@ -95,7 +93,7 @@ impl Counts {
         sample: (u32, u32),
     ) {
         *match verdict.class {
-            Class::Miss => &mut self.misses,
+            Class::Miss => return,
             Class::Right => &mut self.right,
             Class::Off(log) => &mut self.off[usize::from(log)],
             Class::OtherRoot => &mut self.other_root,
@@ -123,7 +121,6 @@ impl Counts {
     /// The counts of both, in whatever order.
     #[must_use]
     pub fn and(mut self, other: &Self) -> Self {
-        self.misses += other.misses;
         self.right += other.right;
         for (sum, count) in self.off.iter_mut().zip(other.off) {
             *sum += count;
@@ -269,7 +266,7 @@ mod tests {
         };
         let all = count(&rays);
         assert_eq!(all.worst, Some(Worst { verdict: lost, sphere: 8, sample: (2, 2) }));
-        assert_eq!((all.misses, all.right, all.off[3], all.lost_hits), (1, 1, 2, 3));
+        assert_eq!((all.right, all.off[3], all.lost_hits), (1, 2, 3));
         assert_eq!(all.wrong_decisions(), 3);
         for middle in 0..=rays.len() {
             let (first, last) = (count(&rays[..middle]), count(&rays[middle..]));

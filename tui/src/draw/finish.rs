@@ -93,10 +93,4 @@ impl<'a> Finish<'a> {
             *light = darkened(*light, veil * self.background, darkness);
         }
     }
-
-    /// Where a sample of a finer grid lies among the few: across or down.
-    #[inline]
-    pub(super) fn place(sample: u32, finer: u32, few: u32) -> f32 {
-        (sample as f32 + 0.5) * few as f32 / finer as f32 - 0.5
-    }
 }

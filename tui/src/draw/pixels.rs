@@ -10,7 +10,7 @@ use crate::samples::CellSamples;
 use crate::scene::Scene;
 use crate::shade::silhouettes::{Seen, SeenGrid};
 use crate::structure::choose::Workload;
-use crate::structure::scene::PictureSearch;
+use crate::structure::picture_search::PictureSearch;
 use crate::style::Style;
 use crate::view::View;
 use spherule_kernel::{Camera, Tier, Vec3};
@@ -230,15 +230,13 @@ fn finish_tile(
     finished.clear();
     finished.extend_from_slice(traced.pixels);
     if let Some((seen_grid, first)) = edges {
-        let (few_across, few_down) = seen_grid.samples;
         let (across, down) = (grid.cell.0 * samples_across, grid.cell.1 * samples_across);
         let above = *first as u32 * down;
         for (index, (light, seen)) in (0..).zip(finished.iter_mut().zip(traced.seen)) {
             let (x, y) =
                 (left * samples_across + index % row, top * samples_across + index / row - above);
-            let x = Finish::place(x, across, few_across as u32);
-            let y = Finish::place(y, down, few_down as u32);
-            finish.darken(light, seen, seen_grid, (x, y));
+            let place = seen_grid.place((x, y), (across, down));
+            finish.darken(light, seen, seen_grid, place);
         }
     }
     for (index, pixel) in (0..).zip(pixels) {

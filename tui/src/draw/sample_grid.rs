@@ -2,7 +2,7 @@
 
 use crate::samples::CellSamples;
 use crate::scene::Scene;
-use crate::structure::scene::PictureSearch;
+use crate::structure::picture_search::PictureSearch;
 use crate::structure::search::Tracing;
 use crate::style::Style;
 use crate::threads::Threads;
@@ -28,7 +28,7 @@ pub(super) struct SampleGrid {
 }
 
 impl SampleGrid {
-    /// So many samples in every cell of a picture of `columns` x `rows`.
+    /// The grid of so many samples in every cell of a picture of `columns` x `rows`.
     pub(super) fn new(
         view: &View,
         style: &Style,

@@ -50,12 +50,12 @@ pub(super) struct Grant {
 }
 
 impl Grant {
-    /// All that is needed.
+    /// Every cell in need gets the finest grid.
     pub(super) const FULL: Self = Self { grid: 0, above: ENOUGH };
 }
 
 impl Spending {
-    /// The part of it for `some` of `all` columns.
+    /// The part of the spending for `some` of `all` columns.
     #[must_use]
     pub fn part(self, some: usize, all: usize) -> Self {
         match self {

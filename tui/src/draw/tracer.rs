@@ -37,7 +37,7 @@ impl Places {
     }
 }
 
-/// Traces, and keeps its memory from one call to the next.
+/// Traces packets, and keeps its memory from one call to the next.
 #[derive(Debug, Default)]
 pub(super) struct Tracer {
     corners: Vec<(u32, u32)>,

@@ -2,8 +2,8 @@
 
 use super::arrays::Answers;
 use super::command;
-use crate::cases::{bytes_of_row, header};
 use crate::error::Error;
+use crate::npy::{bytes_of_row, header};
 use spherule_referee::case::Case;
 use spherule_referee::failure::Failure;
 use spherule_referee::judge::Judge;
@@ -64,7 +64,7 @@ fn failures(
     let [spheres, rays, t] = ["S.npy", "R.npy", "T.npy"].map(|name| folder.path().join(name));
     let rows = alone.len();
     let write = |path: &Path, columns: Range<usize>| {
-        let mut bytes = header("<f4", &format!("({rows}, {})", columns.len()));
+        let mut bytes = header("<f4", &[rows as u64, columns.len() as u64]);
         alone.iter().for_each(|case| bytes.extend(bytes_of_row(&case.numbers()[columns.clone()])));
         fs::write(path, bytes).map_err(failed)
     };

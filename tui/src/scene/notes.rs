@@ -78,7 +78,7 @@ impl Notes {
     ) -> Result<(), ReadError> {
         if self.strict {
             let name = cut(names[0], LONGEST_NAME);
-            let what = format!("{name:?} is no element; without --strict it is drawn grey");
+            let what = format!("{name:?} is not an element; without --strict it is drawn grey");
             return Err(ReadError::at(source, line, 1, what));
         }
         if self.unknown_said {
@@ -124,7 +124,7 @@ pub(crate) fn say(source: &str, text: &str) {
 }
 
 /// The first of `names`, with commas; of long ones their ends.
-fn listed(names: &[&str]) -> String {
+pub(super) fn listed(names: &[&str]) -> String {
     let first: Vec<_> = names.iter().take(MOST_NAMES).map(|name| cut(name, LONGEST_NAME)).collect();
     let list = first.join(", ");
     if names.len() > MOST_NAMES { list + ", ..." } else { list }

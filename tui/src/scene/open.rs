@@ -40,12 +40,12 @@ pub fn open(name: impl AsRef<OsStr>, reading: &Reading) -> Result<Opened, ReadEr
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             // The name is there to see.
             if name.path().is_symlink() {
-                return Err(ReadError::whole(name, "a symbolic link to no file"));
+                return Err(ReadError::whole(name, "the symbolic link points to no file"));
             }
             return match builtin::shipped_file(name) {
                 Some(scene) => built_in(scene, name, reading),
                 None if is_plain_word(name) => {
-                    Err(ReadError::whole(name, "no such scene, built in or in a file"))
+                    Err(ReadError::whole(name, "no built-in scene and no file has this name"))
                 }
                 None => Err(ReadError::whole(name, "no such file")),
             };
@@ -69,13 +69,17 @@ fn standard_input() -> io::Result<Box<dyn Read + Send>> {
 /// A built-in scene, which no file tells how it is read.
 fn built_in(scene: Scene, name: &str, reading: &Reading) -> Result<Opened, ReadError> {
     let what = match reading {
-        Reading { topology: Some(file), .. } => format!("--topology {file}: for .xtc"),
-        Reading { columns: Some(columns), .. } => format!("--columns {columns}: for tables"),
-        Reading { format: Some(format), .. } => {
-            format!("--format {}: for files", choice::name(format))
+        Reading { topology: Some(file), .. } => {
+            format!("--topology {file} applies to .xtc files only")
         }
-        Reading { strict: true, .. } => "--strict: for files".to_owned(),
-        Reading { follow: true, .. } => "--follow: for files".to_owned(),
+        Reading { columns: Some(columns), .. } => {
+            format!("--columns {columns} applies to tables only")
+        }
+        Reading { format: Some(format), .. } => {
+            format!("--format {} applies to files only", choice::name(format))
+        }
+        Reading { strict: true, .. } => "--strict applies to files only".to_owned(),
+        Reading { follow: true, .. } => "--follow applies to files only".to_owned(),
         _ => return Ok(Opened::Builtin(scene)),
     };
     Err(ReadError::whole(name, format!("{what}; this scene is built in")))
@@ -113,7 +117,7 @@ mod tests {
             let opened = open(&link, &Reading::default());
             std::fs::remove_file(&link).expect("it was there");
             let refusal = opened.expect_err("refused").to_string();
-            assert!(refusal.ends_with(": a symbolic link to no file"), "{refusal}");
+            assert!(refusal.ends_with(": the symbolic link points to no file"), "{refusal}");
         }
     }
 
@@ -124,11 +128,11 @@ mod tests {
         let format = Some(Format::LammpsDump);
         let none = Reading::default;
         for (reading, what) in [
-            (Reading { columns, ..none() }, "--columns 1,2,3: for tables"),
-            (Reading { topology, ..none() }, "--topology x.gro: for .xtc"),
-            (Reading { format, ..none() }, "--format lammps-dump: for files"),
-            (Reading { strict: true, ..none() }, "--strict: for files"),
-            (Reading { follow: true, ..none() }, "--follow: for files"),
+            (Reading { columns, ..none() }, "--columns 1,2,3 applies to tables only"),
+            (Reading { topology, ..none() }, "--topology x.gro applies to .xtc files only"),
+            (Reading { format, ..none() }, "--format lammps-dump applies to files only"),
+            (Reading { strict: true, ..none() }, "--strict applies to files only"),
+            (Reading { follow: true, ..none() }, "--follow applies to files only"),
         ] {
             for name in ["marbles", "caffeine.xyz"] {
                 let refusal = open(name, &reading).expect_err("refused").to_string();

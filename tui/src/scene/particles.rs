@@ -78,7 +78,7 @@ impl Particles {
     #[inline]
     pub(super) fn sphere(&mut self, center: DVec3, radius: Option<f64>) -> Result<(), String> {
         if !center.as_vec3().is_finite() {
-            return Err(format!("is at {center}: not finite in single precision"));
+            return Err(format!("is at {center}, which is not finite in single precision"));
         }
         self.center(center);
         if let Some(radius) = radius.map(|radius| radius as f32) {

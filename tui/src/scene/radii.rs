@@ -42,9 +42,10 @@ impl FromStr for RadiusBy {
 /// Says what is missing, if the scene does not have the elements or the column.
 pub fn set_radii(scene: &mut Scene, by: &RadiusBy) -> Result<(), String> {
     let attributes = scene.attributes();
-    let of_elements = |radius: fn(Element) -> f32| {
+    let of_elements = |kind: &str, radius: fn(Element) -> f32| {
         let elements = attributes.elements.as_ref();
-        let elements = elements.ok_or("no elements in this scene, by which there were radii")?;
+        let elements = elements
+            .ok_or_else(|| format!("this scene has no elements, so there are no {kind} radii"))?;
         let own = scene.spheres();
         let own = |index: usize| own.get(index).map_or(0.0, |sphere| sphere.radius);
         let numbers = elements.iter().enumerate();
@@ -53,14 +54,14 @@ pub fn set_radii(scene: &mut Scene, by: &RadiusBy) -> Result<(), String> {
         Ok::<_, String>(radii.collect::<Vec<_>>())
     };
     let radii = match by {
-        RadiusBy::VanDerWaals => of_elements(|element| element.radius)?,
-        RadiusBy::Covalent => of_elements(|element| element.covalent_radius)?,
+        RadiusBy::VanDerWaals => of_elements("van der Waals", |element| element.radius)?,
+        RadiusBy::Covalent => of_elements("covalent", |element| element.covalent_radius)?,
         RadiusBy::Number(number) => vec![*number; scene.spheres().len()],
         RadiusBy::Column(name) => {
             let columns = attributes.columns.iter().map(|column| &*column.name).collect::<Vec<_>>();
             let column = attributes.column(name).ok_or_else(|| match columns[..] {
-                [] => format!("no {name} in this scene for radii, and no other column of numbers"),
-                _ => format!("no {name} in this scene for radii; it has {}", columns.join(", ")),
+                [] => format!("this scene has no {name} for radii, and no other column of numbers"),
+                _ => format!("this scene has no {name} for radii; it has {}", columns.join(", ")),
             })?;
             let usable = |&value: &f32| if value.is_finite() { value.max(0.0) } else { 0.0 };
             column.values.iter().map(usable).collect()
@@ -106,11 +107,15 @@ mod tests {
 
     #[test]
     fn what_is_no_radius_is_said() {
-        assert_eq!(radii("mass"), Err("no mass in this scene for radii; it has size".to_owned()));
+        assert_eq!(radii("mass"), Err("this scene has no mass for radii; it has size".to_owned()));
         for wrong in ["-1", "nan", "inf", ""] {
             assert!(radii(wrong).is_err(), "{wrong}");
         }
-        let error = set_radii(&mut Scene::new(), &RadiusBy::Covalent);
-        assert!(error.is_err_and(|error| error.contains("no elements")));
+        for (by, kind) in
+            [(RadiusBy::Covalent, "covalent"), (RadiusBy::VanDerWaals, "van der Waals")]
+        {
+            let expected = format!("this scene has no elements, so there are no {kind} radii");
+            assert_eq!(set_radii(&mut Scene::new(), &by), Err(expected));
+        }
     }
 }

@@ -1,6 +1,6 @@
-//! Why an input is no scene.
+//! Why an input is not a scene.
 
-use crate::error::cause;
+use crate::error::{cause, place_in};
 use std::{fmt, io};
 
 /// What is wrong, and where.
@@ -36,9 +36,7 @@ impl ReadError {
 
     /// About a byte of a file that is all in `text`.
     pub(super) fn in_text(source: &str, text: &str, byte: usize, what: impl Into<String>) -> Self {
-        let before = text.get(..byte).unwrap_or(text);
-        let line = before.matches('\n').count() + 1;
-        let column = before.chars().rev().take_while(|&letter| letter != '\n').count() + 1;
+        let (line, column) = place_in(text, byte);
         Self::at(source, line, column, what)
     }
 

@@ -9,24 +9,29 @@ use super::input::Input;
 use super::notes::Notes;
 use super::read_error::ReadError;
 use crate::choice;
-use clap::ValueEnum;
+use clap::{Args, ValueEnum};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
 /// What is asked of a file besides its name.
-#[derive(Clone, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct Reading {
-    /// The format, whatever the file looks like.
+    /// Format of the scene [default: by content; .gz and .bz2 are unpacked]
+    #[arg(long, value_name = "FORMAT")]
     pub format: Option<Format>,
-    /// The columns of a table, with commas.
+    /// Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1
+    #[arg(long, value_name = "X,Y,Z[,R]")]
     pub columns: Option<String>,
-    /// The file that says what the particles of a trajectory are.
-    pub topology: Option<FileName>,
-    /// Whether particles of unknown types are an error.
+    /// Refuse particles of unknown types, which are drawn grey otherwise
+    #[arg(long)]
     pub strict: bool,
+    /// The file that says what the particles of an .xtc are
+    #[arg(long, value_name = "FILE")]
+    pub topology: Option<FileName>,
     /// Whether more may be written to the file.
+    #[arg(skip)]
     pub follow: bool,
 }
 
@@ -56,16 +61,16 @@ pub(super) fn frames(mut input: Input, reading: &Reading) -> Result<Frames, Read
     let topology = match &reading.topology {
         None => None,
         Some(name) if format != Format::Xtc => {
-            let what = format!(
-                "--topology {name}: for .xtc; this file says itself what its particles are"
-            );
+            let why = "this file says itself what its particles are";
+            let what = format!("--topology {name} applies to .xtc files only; {why}");
             return Err(ReadError::whole(input.source(), what));
         }
         Some(name) => Some(Arc::new(topology(name, reading.strict)?)),
     };
     let columns = reading.columns.clone();
     if columns.is_some() && format != Format::Csv {
-        return Err(ReadError::whole(input.source(), "--columns: for tables; this file is none"));
+        let what = "--columns applies to tables only; this file is not a table";
+        return Err(ReadError::whole(input.source(), what));
     }
     let notes = Notes::new(reading.strict);
     let context = Context { columns, topology, notes, ..Context::default() };

@@ -158,7 +158,8 @@ impl Place<'_> {
         if single.is_finite() {
             return Ok(single);
         }
-        let what = format!("{name} is {}: not finite in single precision", number.get_ref());
+        let what =
+            format!("{name} is {}, which is not finite in single precision", number.get_ref());
         Err(self.error(number.span(), what))
     }
 
@@ -182,7 +183,7 @@ impl Place<'_> {
         if (1e-15..1e15).contains(&direction.abs().max_element()) {
             return Ok(direction);
         }
-        let what = format!("{name} has no direction: too short or too long");
+        let what = format!("{name} has no direction: it is too short or too long");
         Err(self.error(vector.span(), what))
     }
 
@@ -204,14 +205,15 @@ fn scene(table: SceneTable, place: &Place<'_>) -> Result<Scene, ReadError> {
         let center = place.position(&sphere.center, "center")?;
         let radius = place.number(&sphere.radius, "radius")?;
         if radius < 0.0 {
-            let what = format!("radius is {}: negative", sphere.radius.get_ref());
+            let what = format!("radius is {}, which is negative", sphere.radius.get_ref());
             return Err(place.error(sphere.radius.span(), what));
         }
         let color = place.color(sphere.color.as_ref(), Srgb::WHITE)?;
         scene.push(Sphere { center, radius }, color, sphere.label.as_deref());
     }
     if table.sphere.is_empty() {
-        return Err(ReadError::whole(place.source, "an empty scene: at least one [[sphere]]"));
+        let what = "the scene is empty; it needs at least one [[sphere]]";
+        return Err(ReadError::whole(place.source, what));
     }
     scene.lighting = match table.light {
         LightEntry::Camera => Lighting::Camera,
@@ -265,11 +267,13 @@ fn lens(table: &Spanned<Table<CameraTable>>, place: &Place<'_>) -> Result<Lens, 
         (LensKind::Perspective, None, None) => Ok(Lens::Perspective { fov: USUAL_FOV }),
         (LensKind::Perspective, Some(number), None) => match place.number(number, "fov")? {
             fov if fov > 0.0 && fov < 180.0 => Ok(Lens::Perspective { fov }),
-            fov => in_vain(number, &format!("fov is {fov}: above 0 and below 180 degrees")),
+            fov => {
+                in_vain(number, &format!("fov is {fov}; it must be above 0 and below 180 degrees"))
+            }
         },
         (LensKind::Parallel, None, Some(number)) => match place.number(number, "height")? {
             height if height > 0.0 => Ok(Lens::Parallel { height }),
-            height => in_vain(number, &format!("height is {height}: above 0")),
+            height => in_vain(number, &format!("height is {height}; it must be above 0")),
         },
         (LensKind::Parallel, None, None) => {
             Err(place.error(table.span(), "a parallel camera has a height"))

@@ -100,7 +100,18 @@ pub fn reach(samples: (usize, usize), cell_aspect: f32) -> [usize; 2] {
 }
 
 impl SeenGrid<'_> {
-    /// How dark it is, 0 to 1, at a place where `seen` is seen. The place is counted in samples of this grid from the middle of the first.
+    /// Where a sample of a finer grid lies, which has so many samples across a cell, and down. Places are counted in samples of this grid
+    /// from the middle of the first.
+    #[must_use]
+    #[inline]
+    pub fn place(&self, (x, y): (u32, u32), (across, down): (u32, u32)) -> (f32, f32) {
+        let place = |sample: u32, finer: u32, few: usize| {
+            (sample as f32 + 0.5) * few as f32 / finer as f32 - 0.5
+        };
+        (place(x, across, self.samples.0), place(y, down, self.samples.1))
+    }
+
+    /// How dark it is, 0 to 1, at a [place](Self::place) where `seen` is seen.
     #[must_use]
     pub fn darkness(&self, (x, y): (f32, f32), seen: &Seen) -> f32 {
         if !seen.depth.is_finite() {
@@ -172,6 +183,15 @@ mod tests {
 
     fn seen(depth: f32, part: u32) -> Seen {
         Seen { depth, radius: 1.0, part }
+    }
+
+    #[test]
+    fn finer_samples_lie_beside_those_of_the_grid() {
+        let (samples, pitch) = ((2, 4), Pitch::Parallel(1.0));
+        let grid = SeenGrid { seen: &[], columns: 1, samples, cell_aspect: 0.5, pitch };
+        assert_eq!(grid.place((0, 0), (2, 4)), (0.0, 0.0));
+        assert_eq!(grid.place((0, 3), (4, 8)), (-0.25, 1.25));
+        assert_eq!(grid.place((7, 8), (4, 8)), (3.25, 3.75));
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub(super) fn refuse(arguments: &PictureArguments, is_terminal: bool) -> Result<
     if crowd.legend
         && let Some(other) = first(&[show, pixels])
     {
-        return Err(Error::Input(format!("--legend: there is none with {other}")));
+        return Err(Error::Input(format!("--legend cannot be used with {other}")));
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use std::path::Path;
 /// [`Error::Input`], which names the file.
 pub(super) fn refuse(arguments: &PictureArguments, is_file: bool) -> Result<(), Error> {
     let PictureArguments { png, cast, scene, .. } = arguments;
-    let topology = scene.file.topology.as_ref().map(|file| ("--topology", file.path()));
+    let topology = scene.file.reading.topology.as_ref().map(|file| ("--topology", file.path()));
     let inputs = [is_file.then(|| ("the scene", scene.name.path())), topology];
     // Standard input has no place.
     let inputs: Vec<(&str, &Path)> =

@@ -32,7 +32,8 @@ pub(super) fn while_reading(
         frames.report();
     };
     let reader = thread::Builder::new().name("frames".to_owned()).spawn(reading);
-    let reader = reader.map_err(|error| Error::Running(format!("a thread: {error}")))?;
+    let reader =
+        reader.map_err(|error| Error::Running(format!("cannot start a thread: {error}")))?;
     let result = read.iter().try_for_each(|frame| {
         let (index, scene) = frame?;
         draw(index, scene)
@@ -158,7 +159,7 @@ mod tests {
         let (seen, result) = drawn(opened("bad.xyz", &bad, false), 9.0);
         assert_eq!(seen, [(0, 0.0), (1, 1.0)]);
         let Err(Error::Input(error)) = result else { panic!("{result:?}") };
-        assert!(error.contains(":9:3: x is \"x\": no number"), "{error}");
+        assert!(error.contains(":9:3: x is \"x\", which is not a number"), "{error}");
     }
 
     #[test]

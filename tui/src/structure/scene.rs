@@ -3,63 +3,25 @@
 use super::choose::{Workload, choose};
 use super::object_order::ObjectOrder;
 use super::openness::{Around, Openness};
+use super::picture_search::{PictureSearch, Setting};
 use super::screen::{Area, Screen};
 use super::search::Search;
 use super::{Order, Structure};
 use crate::choice::Auto;
 use crate::error::Error;
 use crate::scene::framing::subject;
-use crate::scene::{Light, Scene, Source};
+use crate::scene::{Scene, Source};
 use crate::style::Aids;
 use crate::threads::Threads;
 use crate::view::View;
-use spherule_kernel::{
-    Bvh, Coherence, DepthList, Sphere, SphereList, SphereTree, Spheres, Viewpoint,
-};
+use spherule_kernel::{Bvh, DepthList, Sphere, SphereList, SphereTree, Spheres, Viewpoint};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-
-/// How the rays of a picture find spheres.
-#[derive(Clone, Debug)]
-pub struct PictureSearch<'a> {
-    /// The structure that is searched; in object order only the rays to the lights search it.
-    pub structure: Structure,
-    /// Whether its rays lie close together.
-    pub coherence: Coherence,
-    /// The search of the camera's rays.
-    pub camera: Search<'a>,
-    /// The lights of the picture.
-    pub lights: Vec<Light>,
-    /// The searches of the rays to the lights, one a light; none if the scene casts no shadows.
-    pub to_lights: Vec<Search<'a>>,
-    /// What aids need of the scene.
-    pub setting: Setting,
-}
-
-/// A scene as a whole, as far as the aids of a picture need it.
-#[derive(Clone, Debug, Default)]
-pub struct Setting {
-    /// A sphere around what there is to see, if the depth cue needs it.
-    pub subject: Option<Sphere>,
-    /// How open it is around the spheres, if occlusion is shown.
-    pub around: Option<Around>,
-}
 
 /// With so many spheres or fewer, occlusion rays search all of them, without a tree.
 const FEW: usize = 64;
 /// Spheres farther away than this, over the radius of all there is to see, are in no one's way: a sky around it.
 const REACH: f32 = 2.0;
-
-impl PictureSearch<'_> {
-    /// The order of the camera's rays.
-    #[must_use]
-    pub fn order(&self) -> Order {
-        match self.camera {
-            Search::Objects(_) => Order::Object,
-            Search::Brute(_) | Search::DepthList(_) | Search::Bvh(_) => Order::Image,
-        }
-    }
-}
 
 /// A tree whose boxes have grown by this factor is built anew.
 const WORN: f32 = 1.5;
@@ -138,7 +100,7 @@ impl<'a> SceneStructures<'a> {
         self.list = Arc::clone(list);
         self.openness = None;
         let Some(tree) = self.tree.take() else { return };
-        // A tree that others still use is left to them.
+        // A tree that is still shared cannot be refitted: a new one is built.
         let Ok(mut tree) = Arc::try_unwrap(tree) else { return };
         if tree.list().len() != list.len() {
             return;

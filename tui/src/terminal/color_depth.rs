@@ -1,10 +1,10 @@
 //! How many colours: what the user asks for, then what the environment says.
 
 use super::multiplexer::Multiplexer;
+use super::variable;
 use crate::palette::Theme;
 use crate::style::ColorDepth;
 use clap::ValueEnum;
-use std::env;
 
 /// What `--color` says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -49,14 +49,13 @@ impl Surroundings {
     /// The surroundings of this process.
     #[must_use]
     pub fn of_process(is_terminal: bool) -> Self {
-        let text = |name| env::var_os(name).unwrap_or_default().to_string_lossy().into_owned();
         Self {
             is_terminal,
             no_color: anstyle_query::no_color(),
             // Not `anstyle_query::clicolor_force`, which takes 0 for a yes.
-            force: !["", "0"].contains(&text("CLICOLOR_FORCE").as_str()),
+            force: !["", "0"].contains(&variable("CLICOLOR_FORCE").as_str()),
             // Not `anstyle_query::term_supports_color`: an empty name promises no colour.
-            term: text("TERM"),
+            term: variable("TERM"),
             multiplexer: Multiplexer::of_process(),
             truecolor: anstyle_query::truecolor(),
             told: None,

@@ -1,7 +1,7 @@
 //! A terminal within a terminal: what tmux and GNU screen do with strings, and what they say, is theirs, not that of the
 //! terminal behind them.
 
-use std::env;
+use super::variable;
 
 /// What shows the program a terminal of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,9 +16,7 @@ impl Multiplexer {
     /// The one that this process runs in, as far as the environment tells.
     #[must_use]
     pub fn of_process() -> Option<Self> {
-        let term = env::var_os("TERM").unwrap_or_default();
-        let is_in_tmux = env::var_os("TMUX").is_some_and(|name| !name.is_empty());
-        Self::called(&term.to_string_lossy(), is_in_tmux)
+        Self::called(&variable("TERM"), !variable("TMUX").is_empty())
     }
 
     /// The one whose terminals are called `term`. Those of tmux may be called like GNU screen's; ssh sends the name alone.

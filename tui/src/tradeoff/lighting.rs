@@ -1,7 +1,7 @@
 //! How the points that rays hit are lit by a tier: its normals, and what its shadow rays meet.
 
 use super::machine::Machine;
-use super::rays::Rays;
+use super::rays::{Kind, Rays};
 use super::report::LightingErrors;
 use super::watch::{Step, Watch};
 use crate::scene::Light;
@@ -64,7 +64,7 @@ impl Lighting {
             let hit = (&*camera, &*hits, surfaces);
             shadow_rays.cast(tracing, spheres, hit, light).to_vec()
         };
-        let rays = Rays::of_lights(lights.iter().map(of_light));
+        let rays = Rays::new(Kind::Shadow, lights.iter().map(of_light));
         let occluded = machine.any_hits(tier, &rays);
         let lit = rays.packets.iter().zip(occluded).flat_map(|(rays, occluded)| {
             (0..RayPacket::COUNT)

@@ -51,7 +51,8 @@ pub(super) fn most_rays(spheres: usize, structure: Structure) -> usize {
 }
 
 impl Rays {
-    fn new(kind: Kind, parts: impl Iterator<Item = Vec<RayPacket>>) -> Self {
+    /// Rays of one kind, part by part.
+    pub(super) fn new(kind: Kind, parts: impl Iterator<Item = Vec<RayPacket>>) -> Self {
         let parts: Vec<_> = parts.collect();
         let lengths = parts.iter().map(Vec::len).collect();
         let packets = parts.concat();
@@ -83,11 +84,6 @@ impl Rays {
         });
         // There is one block at least, even if there are fewer packets to trace.
         Self::new(Kind::Camera, std::iter::once(packets.take(most_packets).collect()))
-    }
-
-    /// Rays to every light, packets light by light.
-    pub(super) fn of_lights(parts: impl Iterator<Item = Vec<RayPacket>>) -> Self {
-        Self::new(Kind::Shadow, parts)
     }
 
     /// The rays from the `hits` of the `camera` rays by `tracing` to those of the `lights` that the surface faces, light

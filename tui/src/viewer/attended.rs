@@ -1,4 +1,4 @@
-//! Work that is attended to: whoever waits for it looks around meanwhile, and can end it.
+//! Work during which the waiting thread still handles input, and may cancel it.
 
 use crate::error::Error;
 use crate::threads::Threads;
@@ -8,10 +8,10 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::{Builder, scope};
 use std::time::Duration;
 
-/// The time between two looks. Quick work is not looked at.
+/// The time between two calls of `look`; work that ends sooner gets none.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Stops the threads when no one attends to them any more: after an error and a panic, too.
+/// Stops the threads when it is dropped: after an error and a panic, too.
 struct Attendance<'a>(&'a Threads);
 
 impl Drop for Attendance<'_> {

@@ -123,7 +123,7 @@ mod tests {
         assert_eq!((colors.start(), colors.show(&mut with, 1)), ((1, 2), None));
         assert!(with.colors() != [Srgb::WHITE; 2] && colors.legend.is_some());
         assert_eq!(colors.begin_anew(&without), 2);
-        let lack = Some("no q in this scene to colour by; it has scene".to_owned());
+        let lack = Some("this scene has no q to colour by; it has scene".to_owned());
         assert_eq!(colors.show(&mut without, 1), lack);
         assert_eq!((without.colors(), &colors.legend), ([Srgb::WHITE].as_slice(), &None));
         for _ in 0..2 {

@@ -84,12 +84,12 @@ fn reading(
         RadiusBy::Column(column) => column.to_string(),
     });
     let radius = radius.or_else(|| radius_of_film(asked, frame, scene));
-    let file = &asked.file;
+    let reading = &asked.file.reading;
     [
         ("--frame", (frame > 0).then(|| OsString::from(frame.to_string()))),
-        ("--format", file.format.map(|format| OsString::from(name(&format)))),
-        ("--columns", file.columns.as_ref().map(OsString::from)),
-        ("--topology", file.topology.as_ref().map(|file| OsString::from(file.path()))),
+        ("--format", reading.format.map(|format| OsString::from(name(&format)))),
+        ("--columns", reading.columns.as_ref().map(OsString::from)),
+        ("--topology", reading.topology.as_ref().map(|file| OsString::from(file.path()))),
         ("--radius", radius.map(OsString::from)),
     ]
     .into_iter()
@@ -210,7 +210,7 @@ mod tests {
         assert!(line.ends_with(" --topology=-a.gro"), "{line}");
         let again = again(&line);
         assert_eq!(again.name, "./-dash.toml");
-        assert_eq!(again.file.topology.as_deref(), Some("-a.gro"));
+        assert_eq!(again.file.reading.topology.as_deref(), Some("-a.gro"));
         let line = of_words(&["-"], 0);
         assert!(line.starts_with("spherule - --eye "), "{line}");
     }

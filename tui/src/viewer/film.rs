@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 
 /// Frames a second while it plays, at most.
 pub(super) const RATE: u32 = 25;
-/// Between two looks at how many frames have been read, while the picture rests, and for a frame that has not come for long.
+/// The time between two looks at how many frames have been read, while the picture rests, and for a frame that has not come for long.
 const GLANCE: Duration = Duration::from_millis(200);
 
 /// The frames of a file, and which is shown.
@@ -26,9 +26,9 @@ pub struct Film {
     shared: Arc<Shared>,
     /// The frame that is shown.
     shown: usize,
-    /// The one that is to be shown as soon as it is there.
+    /// The frame that is to be shown as soon as it has been read.
     target: usize,
-    /// Since when it is awaited.
+    /// Since when that frame is awaited.
     asked: Instant,
     is_playing: bool,
     last: Instant,
@@ -62,7 +62,7 @@ impl Film {
         let theirs = Arc::clone(&shared);
         let read = move || read_ahead(frames, first, &theirs, prepare);
         let thread = worker::begin("frames", read);
-        thread.map_err(|error| Error::Running(format!("a thread: {error}")))?;
+        thread.map_err(|error| Error::Running(format!("cannot start a thread: {error}")))?;
         let now = Instant::now();
         Ok(Self {
             shared,
@@ -108,7 +108,7 @@ impl Film {
         self.shown
     }
 
-    /// One frame on or back; of a pipe, back only to what is kept.
+    /// Steps one frame on or back; of a pipe, back only to frames that are kept.
     pub(super) fn step(&mut self, forward: bool) {
         self.is_playing = false;
         self.has_told_ending &= !forward;
@@ -151,7 +151,7 @@ impl Film {
 
     /// How long until it should be asked for a frame; `None` if nothing is to come.
     pub(super) fn wait(&self) -> Option<Duration> {
-        /// Between two looks for a frame that is still being read, at first.
+        /// The time between the first two looks for a frame that is still being read.
         const LOOK: Duration = Duration::from_millis(5);
         let is_awaited = self.target != self.shown;
         // The longer none has come, the longer the wait: a pipe may be silent for ever.

@@ -25,7 +25,7 @@ const TOLERANCES: [f32; 3] = [0.01, 0.02, 0.03];
 /// The fewest bytes of a frame that say something of the link: a smaller frame is answered at once, whatever the link.
 const TELLING: usize = 4096;
 
-/// What is under way.
+/// The frames that were sent and not answered yet, and what answers tell of the link.
 #[derive(Debug, Default)]
 pub(super) struct Flow {
     under_way: VecDeque<Sent>,
@@ -53,13 +53,13 @@ impl Flow {
         (!left.is_zero()).then_some(left)
     }
 
-    /// A frame of so many bytes was sent, and its answer is awaited.
+    /// Takes note that a frame of so many bytes was sent, whose answer is awaited.
     pub(super) fn sent(&mut self, bytes: usize, now: Instant) {
         self.give_up(LOST, now);
         self.under_way.push_back(Sent { at: now, bytes });
     }
 
-    /// The oldest frame has come to the terminal.
+    /// Takes note that the terminal has answered the oldest frame.
     pub(super) fn answered(&mut self, now: Instant) {
         // What was sent so long ago never was answered: this answer is to a later one.
         self.give_up(LOST, now);
@@ -81,7 +81,7 @@ impl Flow {
         }
     }
 
-    /// The terminal has told its size. Returns whether answers are given up, which may have been lost.
+    /// Takes note that the terminal has told its size. Returns whether that gives up answers, which may have been lost.
     pub(super) fn resized(&mut self, now: Instant) -> bool {
         let before = self.open();
         self.give_up(LOST_BEFORE_RESIZE, now);
@@ -101,7 +101,7 @@ impl Flow {
         self.under_way.len() as u32
     }
 
-    /// Nothing that was sent will be answered.
+    /// Gives up all answers.
     pub(super) fn forget(&mut self) {
         self.under_way.clear();
         self.answered = None;

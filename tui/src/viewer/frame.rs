@@ -172,7 +172,7 @@ impl Viewer {
         let first = film.into_iter().chain(draws.then(|| DRAWING.to_owned()));
         let first = first.collect::<Vec<_>>().join("  ");
         let structure = self.state.shown.structure.or(picture.structure);
-        let (state, searched) = ((&self.state, &*first), (self.order, structure));
+        let (state, searched) = ((&self.state, &*first), (self.asked.scene.order, structure));
         status::write(&mut cells, status_row, state, searched, figures);
         self.encoder.encode_row(&cells, status_row, &mut self.bytes);
         self.encoder.bracket(0, &mut self.bytes);

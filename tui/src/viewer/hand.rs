@@ -1,6 +1,6 @@
 //! A button of the mouse that is held down, and whether it has been a click.
 
-/// What the mouse holds: nothing, at first.
+/// Where a button of the mouse is held down, if it is.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Hand {
     hold: Option<Hold>,
@@ -8,27 +8,27 @@ pub(super) struct Hand {
 
 #[derive(Clone, Copy, Debug)]
 struct Hold {
-    /// Column and row where it took hold, or was led to since.
+    /// Column and row of the press, or of the last movement since.
     place: (u16, u16),
-    /// Whether it has been led anywhere.
+    /// Whether the mouse has moved since the press.
     moved: bool,
 }
 
 impl Hand {
-    /// Takes hold at a place.
+    /// Takes note of a press.
     pub(super) fn grab(&mut self, place: (u16, u16)) {
         self.hold = Some(Hold { place, moved: false });
     }
 
-    /// How many cells it is led to the right and down; none if it only takes hold.
+    /// Takes note of a movement; returns how many cells it goes to the right and down, zero without a press.
     pub(super) fn led_to(&mut self, place: (u16, u16)) -> [f32; 2] {
         let Hold { place: from, moved } = self.hold.unwrap_or(Hold { place, moved: true });
         self.hold = Some(Hold { place, moved: moved || from != place });
         [f32::from(place.0) - f32::from(from.0), f32::from(place.1) - f32::from(from.1)]
     }
 
-    /// Lets go; returns whether that was a click: at the place where it took hold, and not led
-    /// anywhere since.
+    /// Takes note of a release; returns whether it ends a click: at the place of the press, without a
+    /// movement since.
     pub(super) fn release(&mut self, place: (u16, u16)) -> bool {
         self.hold.take().is_some_and(|hold| !hold.moved && hold.place == place)
     }

@@ -7,23 +7,23 @@ use spherule_kernel::Tier;
 /// One thing that the user or the terminal wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Input {
-    /// Lead the eye around, or the cell that is picked along: steps to the right, steps up.
+    /// Turn the eye around the target, or move the picked cell: steps to the right, steps up.
     Orbit(i8, i8),
     /// Go nearer by so many steps.
     Zoom(i8),
-    /// The mouse took hold at this column and row, ...
+    /// A button was pressed at this column and row, ...
     Grab(u16, u16),
-    /// ... and has pulled to this one.
+    /// ... and the mouse was dragged to this one.
     Drag(u16, u16),
-    /// It let go at this one.
+    /// The button was released at this one.
     Release(u16, u16),
-    /// Lead eye and target along the picture: steps to the right, steps up.
+    /// Move eye and target along the picture: steps to the right, steps up.
     Pan(i8, i8),
-    /// The mouse took hold of what is to be moved along the picture, ...
+    /// The button that moves eye and target was pressed at this column and row, ...
     GrabPlane(u16, u16),
-    /// ... and has pulled it to this column and row.
+    /// ... and the mouse was dragged to this one with it.
     DragPlane(u16, u16),
-    /// Pick a cell, or no longer.
+    /// Start or stop to pick a cell.
     Pick,
     /// Show all of the scene.
     FrameAll,
@@ -35,7 +35,7 @@ pub(super) enum Input {
     Errors,
     /// Show two tiers side by side, or the picture again.
     Split,
-    /// Show what every tier takes and gets wrong, or no longer.
+    /// Show or hide the table of what every tier takes and gets wrong.
     Table,
     /// Move the seam between two tiers so many columns to the right.
     Seam(i8),
@@ -43,15 +43,15 @@ pub(super) enum Input {
     Projection,
     /// The next charset.
     Charset,
-    /// Less light where others are in the way, or as before.
+    /// Turn occlusion on or off.
     Occlusion,
-    /// Dark edges, or none.
+    /// Turn dark edges on or off.
     Edges,
-    /// What is far away fades, or does not.
+    /// Turn the fading of what is far away on or off.
     DepthCue,
     /// Colour by the next thing.
     Coloring,
-    /// Say what colours mean, or no longer.
+    /// Show or hide what colours mean.
     Legend,
     /// The next structure.
     Structure,

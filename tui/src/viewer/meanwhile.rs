@@ -1,4 +1,4 @@
-//! What is done while a picture is drawn that takes long: keys are answered, and one that wants another picture ends it.
+//! What the viewer does while a picture takes long: it answers keys, and ends the drawing if one wants another picture.
 
 use super::attended::attend;
 use super::film::Film;

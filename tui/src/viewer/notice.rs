@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::Instant;
 
 impl Viewer {
-    /// Tells something that comes by itself, behind what is told already.
+    /// Appends a message that no key has asked for to what is told already.
     pub(super) fn tell(&mut self, what: &str) {
         let what = cut(what, LONGEST_LINE);
         self.notice = Some(match self.notice.take() {
@@ -50,7 +50,7 @@ impl Viewer {
                     self.state.recording = true;
                     "recording: R ends it".to_owned()
                 }
-                Err(error) => format!("no recording here: {}", cause(&error)),
+                Err(error) => format!("cannot record here: {}", cause(&error)),
             }
         };
         self.notice = Some(told);

@@ -45,7 +45,7 @@ pub(super) enum Debt {
 }
 
 impl Pace {
-    /// Nothing has been drawn yet.
+    /// The pace before the first frame.
     pub(super) fn new(interval: Duration) -> Self {
         let drawing = Duration::ZERO;
         Self { interval, rate: None, drawing, is_full: true, gave_up: false, debt: Debt::None }

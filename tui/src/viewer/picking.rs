@@ -14,12 +14,12 @@ pub(super) struct Cursor {
 }
 
 impl Cursor {
-    /// In the middle of a picture of `columns` x `rows`.
+    /// The cell in the middle of a picture of `columns` x `rows`.
     pub(super) fn middle((columns, rows): (u16, u16)) -> Self {
         Self { column: columns / 2, row: rows / 2 }.within((columns, rows))
     }
 
-    /// So many cells to the right and upwards, as far as the picture goes.
+    /// The cell so many columns to the right and rows up, or the nearest that the picture has.
     pub(super) fn moved(self, right: i8, up: i8, size: (u16, u16)) -> Self {
         let column = self.column.saturating_add_signed(right.into());
         let row = self.row.saturating_add_signed(-i16::from(up));

@@ -77,7 +77,7 @@ impl Viewer {
 
     fn denial(&self) -> String {
         let name = crate::choice::name(&self.pixels.output);
-        format!("--output {name}: the terminal has none of these pixels")
+        format!("--output {name}: the terminal cannot show these pixels")
     }
 
     /// How many pixels a cell of the picture has, in width and height.

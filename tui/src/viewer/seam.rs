@@ -14,7 +14,7 @@ impl Seam {
         Self { right: (column - i32::from(columns / 2)) as i16 }
     }
 
-    /// Its column of so many.
+    /// The column of the seam in a picture of `columns`.
     pub(super) fn column(self, columns: u16) -> u16 {
         let column = i32::from(columns / 2) + i32::from(self.right);
         column.clamp(0, last(columns)) as u16

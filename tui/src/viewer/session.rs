@@ -19,7 +19,7 @@ use crate::encode::Encoder;
 use crate::error::Error;
 use crate::picture::Image;
 use crate::scene::Scene;
-use crate::structure::{Order, Structure};
+use crate::structure::Structure;
 use crate::terminal::Terminal;
 use crate::terminal::color_depth::Surroundings;
 use crossterm::event::Event;
@@ -34,8 +34,6 @@ pub(super) struct Viewer {
     pub(super) colors: Colors,
     /// Its file, if it may have more frames.
     pub(super) film: Option<Film>,
-    /// In which order rays and spheres meet.
-    pub(super) order: Order,
     pub(super) terminal: Terminal,
     pub(super) surroundings: Surroundings,
     pub(super) pixels: Pixels,
@@ -65,7 +63,7 @@ pub(super) struct Viewer {
     pub(super) table: Table,
     /// The last picture.
     pub(super) picture: Option<Picture>,
-    /// Kept from frame to frame for its memory.
+    /// Kept so that its allocation is reused.
     pub(super) bytes: Vec<u8>,
     pub(super) panic_key: bool,
 }

@@ -20,7 +20,7 @@ pub(super) enum Outcome {
 }
 
 impl Outcome {
-    /// What both led to.
+    /// The greater of two outcomes.
     pub(super) fn and(self, other: Self) -> Self {
         self.max(other)
     }
@@ -33,7 +33,7 @@ pub(super) struct Shown {
     pub(super) style: Style,
     pub(super) structure: Auto<Structure>,
     pub(super) comparison: Option<Comparison>,
-    /// Between two tiers.
+    /// The seam between two tiers.
     pub(super) seam: Seam,
     pub(super) help: bool,
     /// Which of the things to colour by, and whether it is said what colours mean.

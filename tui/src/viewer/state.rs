@@ -16,11 +16,11 @@ use spherule_kernel::{Sphere, Tier};
 use std::f32::consts::PI;
 use std::time::Duration;
 
-/// How far a key leads the eye around, in radians: 5 degrees.
+/// How far a key turns the eye around the target, in radians: 5 degrees.
 pub const ORBIT_STEP: f32 = PI / 36.0;
 /// By what factor a key or a notch of the wheel enlarges.
 pub const ZOOM_STEP: f32 = 1.1;
-/// How far a key leads eye and target along the picture, over the picture's height at the target.
+/// How far a key moves eye and target along the picture, as a share of the picture's height at the target.
 pub const PAN_STEP: f64 = 0.05;
 /// Radians a second: around in 12 seconds.
 const SPIN: f32 = PI / 6.0;
@@ -36,11 +36,11 @@ pub struct Start {
     pub style: Style,
     /// Which structure is asked for.
     pub structure: Auto<Structure>,
-    /// What tiers are held against each other, if they are.
+    /// Which comparison of tiers is shown, if any.
     pub comparison: Option<Comparison>,
     /// Whether there is a table of what every tier takes and gets wrong.
     pub table: bool,
-    /// Whether it is said what colours mean.
+    /// Whether the picture shows what its colours mean.
     pub legend: bool,
 }
 
@@ -52,7 +52,7 @@ pub(super) struct State {
     pub(super) first_charset: Charset,
     pub(super) shown: Shown,
     hand: Hand,
-    /// Whether the hand holds the seam.
+    /// Whether the mouse drags the seam.
     pulls_seam: bool,
     pub(super) recording: bool,
     /// Columns and rows of the picture: a drag over all rows is half a turn.

@@ -1,4 +1,4 @@
-//! What draws pictures: it is lent to a thread while the viewer listens.
+//! Renderer and structures, lent to the drawing thread while the viewer reads input.
 
 use super::picking::Cursor;
 use super::pixel_frame::NO_TEXT;
@@ -41,7 +41,7 @@ pub(super) struct Manner {
 }
 
 impl<'a> Studio<'a> {
-    /// Has drawn nothing yet.
+    /// A studio that has drawn nothing yet.
     pub(super) fn new(structures: SceneStructures<'a>, renderer: Renderer<'a>) -> Self {
         let (mapper, times) = (ErrorMapper::default(), Times::default());
         Self { structures, renderer, mapper, times }

@@ -143,7 +143,7 @@ impl Table {
         if let Some(means) = means.filter(|_| self.measurement.is_none()) {
             match self.begin(subject, means) {
                 Ok(begun) => self.measurement = Some(begun),
-                Err(error) => return Standing::Failed(format!("no thread: {error}")),
+                Err(error) => return Standing::Failed(format!("cannot start a thread: {error}")),
             }
         }
         let Some(measurement) = &mut self.measurement else { return Standing::Waiting };

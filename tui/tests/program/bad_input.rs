@@ -72,9 +72,8 @@ fn a_file_of_another_name() {
 #[cfg(target_os = "linux")]
 #[test]
 fn an_array_that_claims_a_thousand_million_rows() {
-    use crate::run::{by_script, npy};
-    let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (1000000000, 4), }\n";
-    let path = file("claims.npy", npy(header, b""));
+    use crate::run::{by_script, header, npy};
+    let path = file("claims.npy", npy(&header("'<f4'", "False", "(1000000000, 4)"), b""));
     let mut command = by_script("ulimit -v 500000; exec \"$0\" \"$@\"");
     let message = refusal(&command.arg(path).output().expect("a shell"));
     assert!(message.contains("fewer bytes than"), "{message}");

@@ -48,10 +48,10 @@ fn dump(place: [f64; 3]) -> Vec<u8> {
 }
 
 fn npy(place: [f64; 3]) -> Vec<u8> {
-    let head = "{'descr': '<f8', 'fortran_order': False, 'shape': (61, 4), }\n";
+    let head = run::header("'<f8'", "False", "(61, 4)");
     let spheres = moved(place);
     let bytes = spheres.as_flattened().iter().flat_map(|number| number.to_le_bytes());
-    run::npy(head, &bytes.collect::<Vec<u8>>())
+    run::npy(&head, &bytes.collect::<Vec<u8>>())
 }
 
 fn ply(place: [f64; 3]) -> Vec<u8> {

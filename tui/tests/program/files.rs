@@ -99,7 +99,9 @@ fn a_frame_without_the_colours_or_radii_that_are_asked_for_is_said() {
     let said = stderr(&output);
     let keeps = |what: &str| {
         said.lines()
-            .filter(|line| line.contains(&format!("frame 1 keeps its {what}: no charge")))
+            .filter(|line| {
+                line.contains(&format!("frame 1 keeps its {what}: this scene has no charge"))
+            })
             .count()
     };
     assert_eq!((keeps("colours"), keeps("radii"), said.lines().count()), (1, 1, 2), "{said}");
@@ -125,7 +127,10 @@ fn a_frame_that_is_followed_and_lacks_the_colours_is_said() {
     child.kill().expect("it runs");
     child.wait().expect("it ends");
     let said = said.expect("a line");
-    assert!(said.contains("followed.xyz: frame 1 keeps its colours: no charge"), "{said}");
+    assert!(
+        said.contains("followed.xyz: frame 1 keeps its colours: this scene has no charge"),
+        "{said}"
+    );
 }
 
 /// It is shown as near to text as can be.
@@ -142,7 +147,7 @@ fn a_name_need_not_be_text() {
     assert!(said.contains("/no\u{fffd}text.xyz: frame 0 is shown"), "{said}");
     std::fs::remove_file(&path).expect("it was there");
     assert!(refusal(&with(&path, "")).ends_with("/no\u{fffd}text.xyz: no such file"));
-    assert!(refusal(&run([OsStr::from_bytes(b"\xff")])).starts_with("\u{fffd}: no such scene"));
+    assert!(refusal(&run([OsStr::from_bytes(b"\xff")])).starts_with("\u{fffd}: no built-in scene"));
 }
 
 /// From a pipe, compressed, each frame as from the file.
@@ -175,7 +180,7 @@ fn what_is_unknown_or_ignored_is_said_once() {
     assert!(said.contains("unknown.xyz: 1000 particles are of an unknown type (Xx): drawn grey\n"));
     assert!(said.contains("columns behind x, y and z are ignored"));
     let strict = refuses(&format!("{path} --strict"));
-    let what = "unknown.xyz:3:1: \"Xx\" is no element; without --strict it is drawn grey";
+    let what = "unknown.xyz:3:1: \"Xx\" is not an element; without --strict it is drawn grey";
     assert!(strict.ends_with(what), "{strict}");
 }
 
@@ -247,6 +252,6 @@ fn types_that_a_topology_does_not_know_are_said_or_refused() {
     assert!(said.ends_with("topology.gro: 1 particle is of an unknown type (MW): drawn grey\n"));
     assert_eq!(said.lines().count(), 1, "{said}");
     let strict = refuses(&format!("{path} {topology} --strict"));
-    let expected = "topology.gro:5:1: \"MW\" is no element; without --strict it is drawn grey";
+    let expected = "topology.gro:5:1: \"MW\" is not an element; without --strict it is drawn grey";
     assert!(strict.ends_with(expected), "{strict}");
 }

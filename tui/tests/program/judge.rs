@@ -4,8 +4,8 @@ mod again;
 mod precision;
 
 use crate::run::{
-    array, file, folder, json, names, npy, printed, prints, refusal, refuses, run, run_with_input,
-    split,
+    self, array, file, folder, header, json, names, npy, printed, prints, refusal, refuses, run,
+    run_with_input, split,
 };
 use serde_json::Value;
 use spherule_kernel::{Exact, Ray, Sphere, Vec3, roots};
@@ -14,10 +14,7 @@ use std::fs;
 
 /// The data of a `.npy` file.
 fn data(path: &str) -> Vec<u8> {
-    let bytes = fs::read(path).expect("a file");
-    let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-    assert_eq!(start % 64, 0);
-    bytes[start..].to_vec()
+    run::data(&fs::read(path).expect("a file")).to_vec()
 }
 
 fn floats(path: &str) -> Vec<f32> {
@@ -26,8 +23,7 @@ fn floats(path: &str) -> Vec<f32> {
 
 /// A file of one column.
 fn column(dtype: &str, rows: usize, data: &[u8]) -> Vec<u8> {
-    let header = format!("{{'descr': '{dtype}', 'fortran_order': False, 'shape': ({rows},), }}\n");
-    npy(&header, data)
+    npy(&header(&format!("'{dtype}'"), "False", &format!("({rows},)")), data)
 }
 
 /// Spheres, rays, families, and where the answers go.
@@ -208,7 +204,7 @@ fn answers_that_are_none() {
     }
     let family = file("judge-none.other-f.npy", column("|u1", 4, &[0, 1, 99, 0]));
     let message = refused(misses(), None, &format!("--family {family}"));
-    assert!(message.ends_with("row 2: no family 99; 0 to 23"), "{message}");
+    assert!(message.ends_with("row 2: no family has the number 99; they are 0 to 23"), "{message}");
     let missing = refused(misses(), None, "--rules no-such.toml");
     assert_eq!(missing, "no-such.toml: no such file or directory");
 }

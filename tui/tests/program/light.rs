@@ -6,7 +6,7 @@ use spherule::scene::builtin::builtin;
 use spherule::scene::{Light, Lighting, Scene, Source};
 use spherule::shade::Shader;
 use spherule::structure::Structure;
-use spherule::structure::scene::{PictureSearch, Setting};
+use spherule::structure::picture_search::{PictureSearch, Setting};
 use spherule::structure::search::{Scratch, Search, Tracing};
 use spherule::threads::Threads;
 use spherule::view::View;

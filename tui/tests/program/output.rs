@@ -28,7 +28,9 @@ fn pictures_of_a_cell_or_a_colour() {
                 let words = format!(
                     "marbles --charset {charset} --color {color} --distance {distance} --size {size} --palette {equal}"
                 );
-                assert_eq!(prints(&words).lines().count(), rows, "{words}");
+                let text = prints(&words);
+                assert_eq!(text.lines().count(), rows, "{words}");
+                assert_eq!(text.contains('\x1b'), color != "never", "{words}: {text:?}");
             }
             for background in ["000000", "ffffff", "7f7f7f"] {
                 let words = format!(
@@ -60,16 +62,8 @@ fn a_picture_is_exactly_its_rows() {
     }
 }
 
-/// The least picture, and one of more than a strip.
 #[test]
-fn every_charset_and_depth_draws_any_size() {
-    for charset in Charset::value_variants().iter().map(name) {
-        for color in ["never", "16", "256", "truecolor"] {
-            let text = prints(&format!("--size 1x1 --charset {charset} --color {color} --once"));
-            assert_eq!(text.lines().count(), 1, "{charset} {color}");
-            assert_eq!(text.contains('\x1b'), color != "never", "{charset} {color}: {text:?}");
-        }
-    }
+fn a_picture_of_more_than_a_strip() {
     assert!(is_of_size(&prints("--size 4096x33 --charset half --color never"), "4096x33"));
 }
 

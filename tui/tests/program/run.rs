@@ -173,10 +173,20 @@ pub(crate) fn npy(header: &str, data: &[u8]) -> Vec<u8> {
     bytes
 }
 
+/// Such a header: a type, whether the order is Fortran's, a shape.
+pub(crate) fn header(descr: &str, is_fortran: &str, shape: &str) -> String {
+    format!("{{'descr': {descr}, 'fortran_order': {is_fortran}, 'shape': {shape}, }}\n")
+}
+
+/// What is after the header.
+pub(crate) fn data(bytes: &[u8]) -> &[u8] {
+    let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    assert_eq!(start % 64, 0);
+    &bytes[start..]
+}
+
 /// A `.npy` file of float32 rows.
 pub(crate) fn array(rows: usize, columns: usize, values: &[f32]) -> Vec<u8> {
-    let header =
-        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, {columns}), }}\n");
     let data: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-    npy(&header, &data)
+    npy(&header("'<f4'", "False", &format!("({rows}, {columns})")), &data)
 }

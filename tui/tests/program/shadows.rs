@@ -53,7 +53,7 @@ fn acne(tier: Tier, radius: f32, place: f32) -> (u32, u32) {
     let seed = u64::from(radius.to_bits()) << 32 | u64::from(place.to_bits());
     let mut random = Random::seeded(seed);
     let (mut own, mut cast) = (0, 0);
-    for _ in 0..4000 {
+    for _ in 0..1000 {
         let center = place * random.in_cube(1.0);
         let sphere = Sphere { center, radius };
         // From up to ten radii away, towards a point of the ball.
@@ -88,7 +88,7 @@ fn no_acne(tier: Tier) {
             total += cast;
         }
     }
-    assert!(total > 50_000, "{total}");
+    assert!(total > 12_000, "{total}");
 }
 
 #[test]

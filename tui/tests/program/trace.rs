@@ -1,6 +1,6 @@
 //! `spherule trace` against a scalar loop, and its refusals.
 
-use crate::run::{array, failure, file, npy, prints, refuses, run, split};
+use crate::run::{array, failure, file, header, npy, prints, refuses, run, split};
 use crate::scenes::inward;
 use crate::traced::{inputs, traced};
 use spherule_kernel::{Intersect, Ray, SphereList, Tier, Vec3};
@@ -92,13 +92,6 @@ fn nothing_meets_nothing() {
     assert!(found.t().is_empty() && found.text.starts_with("rays=0 spheres=7 hits=0 "));
 }
 
-#[test]
-fn a_single_sphere_by_hand() {
-    let rays = [0.0, 0.0, -3.0, 0.0, 0.0, 2.0, 0.0, f32::INFINITY];
-    let found = traced("hand", &[0.0, 0.0, 0.0, 1.0], &rays, "");
-    assert_eq!((found.t(), found.id()), (vec![1.0_f32.to_bits()], vec![0]));
-}
-
 /// What is said about this file of rays, after its name.
 fn refused(name: &str, bytes: &[u8]) -> String {
     // Tests run side by side: a file that two of them write is empty for a moment.
@@ -110,12 +103,10 @@ fn refused(name: &str, bytes: &[u8]) -> String {
 
 #[test]
 fn arrays_that_are_none() {
-    let header = |descr: &str, shape: &str| {
-        format!("{{'descr': {descr}, 'fortran_order': False, 'shape': {shape}, }}\n")
-    };
-    assert_eq!(refused("magic.npy", b"not an array at all"), ": no .npy file");
-    assert_eq!(refused("short.npy", b"\x93NUM"), ": no .npy file: it ends within its header");
-    assert_eq!(refused("empty.npy", b""), ": no .npy file: it ends within its header");
+    let header = |descr: &str, shape: &str| header(descr, "False", shape);
+    assert_eq!(refused("magic.npy", b"not an array at all"), ": not a .npy file");
+    assert_eq!(refused("short.npy", b"\x93NUM"), ": not a .npy file: it ends within its header");
+    assert_eq!(refused("empty.npy", b""), ": not a .npy file: it ends within its header");
     for (name, descr, begin) in [
         ("int.npy", "'<i4'", ": dtype '<i4', not float32"),
         ("object.npy", "'|O'", ": dtype '|O', not float32"),
@@ -146,16 +137,15 @@ fn arrays_that_are_none() {
 #[test]
 fn a_header_that_lies_about_its_shape_or_length() {
     for (name, rows) in [("lie1", "1000000000000"), ("lie2", "4611686018427387904")] {
-        let header =
-            format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({rows}, 8), }}\n");
+        let header = header("'<f4'", "False", &format!("({rows}, 8)"));
         let message = refused(&format!("{name}.npy"), &npy(&header, &[0; 32]));
         assert!(
             message.contains("bytes than") || message.contains("larger than any file"),
             "{message}"
         );
     }
-    let two = "{'descr': '<f4', 'fortran_order': False, 'shape': (9999999999, 9999999999), }\n";
-    assert!(refused("lie3.npy", &npy(two, &[])).contains("larger than any file"));
+    let two = header("'<f4'", "False", "(9999999999, 9999999999)");
+    assert!(refused("lie3.npy", &npy(&two, &[])).contains("larger than any file"));
     let long = b"\x93NUMPY\x02\x00\xff\xff\xff\xff{}";
     assert!(refused("lie4.npy", long).contains("a header of 4294967295 bytes"));
 }
@@ -216,7 +206,7 @@ fn arrays_of_numpy_s_own_kinds() {
     let expected = traced("kinds", &spheres, &rays, "").text;
     let hits =
         |text: &str| text.split(' ').find(|word| word.starts_with("hits=")).map(str::to_owned);
-    for (descr, size, is_big) in [("<f8", 8, false), (">f8", 8, true), (">f4", 4, true)] {
+    for (descr, size, is_big) in [("'<f8'", 8, false), ("'>f8'", 8, true), ("'>f4'", 4, true)] {
         for order in ["False", "True"] {
             let array = |values: &[f32], width: usize| {
                 let rows = values.len() / width;
@@ -235,9 +225,7 @@ fn arrays_of_numpy_s_own_kinds() {
                     }
                     bytes
                 });
-                let header = format!(
-                    "{{'descr': '{descr}', 'fortran_order': {order}, 'shape': ({rows}, {width}), }}\n"
-                );
+                let header = header(descr, order, &format!("({rows}, {width})"));
                 npy(&header, &bytes.collect::<Vec<u8>>())
             };
             let name = format!("kind{size}{is_big}{order}");

@@ -1,6 +1,6 @@
 //! `spherule trace`, run on spheres and rays.
 
-use crate::run::{array, file, prints};
+use crate::run::{array, data, file, prints};
 use spherule_kernel::{Level, LevelName};
 
 /// What a run of `trace` leaves behind.
@@ -48,8 +48,7 @@ impl Traced {
 
 /// The 4-byte elements after the header of a file.
 fn numbers(bytes: &[u8]) -> impl Iterator<Item = [u8; 4]> {
-    let start = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-    bytes[start..].as_chunks().0.iter().copied()
+    data(bytes).as_chunks().0.iter().copied()
 }
 
 /// The levels that this CPU has.

@@ -1,11 +1,8 @@
-//! `spherule tradeoff`: its keys, and its counts against a scalar loop.
+//! `spherule tradeoff`: its keys and its counts. `show.rs` has them against a map's.
 
 use crate::run::{file, json, prints};
 use serde_json::Value;
-use spherule::draw::sample_grid;
-use spherule::scene::{builtin::builtin, open};
-use spherule::style::Style;
-use spherule_kernel::{Fast, Intersect, Ray, Sphere};
+use spherule::scene::open;
 use std::sync::LazyLock;
 
 fn measured(words: &str) -> Value {
@@ -26,26 +23,6 @@ fn tier<'a>(report: &'a Value, accuracy: &str, kind: &str) -> &'a Value {
 /// How many hits, misses and spheres of a tier are wrong.
 fn wrong(tier: &Value) -> [u64; 3] {
     ["wrong_hits", "wrong_misses", "wrong_sphere"].map(|key| tier[key].as_u64().expect(key))
-}
-
-/// Whether the ray meets any sphere, in double precision; `None` if that is too close to say.
-fn meets(ray: &Ray, spheres: &[Sphere]) -> Option<bool> {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let (o, d) = (ray.origin.to_array().map(f64::from), ray.direction.to_array().map(f64::from));
-    let mut any = false;
-    for sphere in spheres {
-        let c = sphere.center.to_array().map(f64::from);
-        let p = [c[0] - o[0], c[1] - o[1], c[2] - o[2]];
-        let middle = dot(p, d) / dot(d, d);
-        let q = [p[0] - middle * d[0], p[1] - middle * d[1], p[2] - middle * d[2]];
-        let power = f64::from(sphere.radius).powi(2) - dot(q, q);
-        if power.abs() < 1e-12 * dot(p, p) {
-            return None;
-        }
-        let far = middle + (power.max(0.0) / dot(d, d)).sqrt();
-        any |= power > 0.0 && far > 0.0;
-    }
-    Some(any)
 }
 
 #[test]
@@ -119,9 +96,8 @@ fn edge_is_where_the_lecture_s_forms_are_wrong_and_exact_is_right() {
 /// A hit at the other root has another normal.
 #[test]
 fn wrong_normals_of_edge_are_wrong_spheres() {
-    let report = measured("edge --size 80x24");
-    let [_, _, spheres] = wrong(tier(&report, "fast", "camera"));
-    let [[_, normals, _], ..] = lighting(&report);
+    let [_, _, spheres] = wrong(tier(&EDGE, "fast", "camera"));
+    let [[_, normals, _], ..] = lighting(&EDGE);
     assert!(spheres > 0 && spheres >= normals, "{spheres} wrong spheres, {normals} wrong normals");
 }
 
@@ -129,36 +105,6 @@ fn wrong_normals_of_edge_are_wrong_spheres() {
 fn one_ray_is_counted_as_one() {
     let table = prints("tradeoff unit --size 1x1 --samples 1");
     assert!(table.contains("\n1 camera ray\n"), "{table}");
-}
-
-/// The counts of `Fast`, found by one lane; the truth is in double precision.
-#[test]
-fn the_counts_are_those_of_a_scalar_loop() {
-    let (columns, rows) = (60, 24);
-    let style = Style::PLAIN;
-    let scene = builtin("edge").expect("edge");
-    let view = scene.first_view(style.picture_aspect(columns, rows) as f32);
-    let (camera, width, height) = sample_grid(&view, &style, columns, rows);
-    let spheres: Vec<Sphere> = scene.spheres().iter().collect();
-    let (mut hits, mut misses, mut unsure) = (0, 0, 0);
-    for iy in 0..height {
-        for ix in 0..width {
-            let ray = camera.get_ray(ix, iy);
-            let found = scene.spheres().closest_hit(Fast, &ray).is_some();
-            match meets(&ray, &spheres) {
-                None => unsure += 1,
-                Some(truth) => {
-                    hits += u64::from(found && !truth);
-                    misses += u64::from(!found && truth);
-                }
-            }
-        }
-    }
-    let [said_hits, said_misses, _] = wrong(tier(&EDGE, "fast", "camera"));
-    for (said, count) in [(said_hits, hits), (said_misses, misses)] {
-        assert!(said >= count && said <= count + unsure, "{said}, {count} + {unsure}");
-    }
-    assert!(unsure < 20, "{unsure}");
 }
 
 #[test]

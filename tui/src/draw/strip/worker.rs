@@ -2,7 +2,6 @@
 
 use crate::cells::fit::{FitMemory, Fitted};
 use crate::cells::paint::Painter;
-use crate::draw::finish::Finish;
 use crate::draw::plan::{Plan, Sampling};
 use crate::draw::sample_grid::SampleGrid;
 use crate::draw::tracer::{Places, Tracer};
@@ -149,16 +148,14 @@ impl Worker {
                 (Some(finish), Some((seen_grid, known))) => {
                     finished.clear();
                     finished.extend_from_slice(traced.pixels);
-                    let (few_across, few_down) = seen_grid.samples;
                     let samples = finished.iter_mut().zip(traced.seen).enumerate();
                     for (index, (light, seen)) in samples {
                         let (column, row) = needy[index / count];
                         let sample = (index % count) as u32;
                         let x = (column as usize - plan.left) as u32 * across + sample % across;
                         let y = (row as usize - known) as u32 * down + sample / across;
-                        let x = Finish::place(x, across, few_across as u32);
-                        let y = Finish::place(y, down, few_down as u32);
-                        finish.darken(light, seen, seen_grid, (x, y));
+                        let place = seen_grid.place((x, y), (across, down));
+                        finish.darken(light, seen, seen_grid, place);
                     }
                     &**finished
                 }

@@ -1,4 +1,4 @@
-//! Which bytes say it.
+//! Which bytes an update writes.
 
 use super::*;
 
@@ -156,18 +156,6 @@ fn a_mark_is_inverse_without_a_colour_and_leaves_nothing_behind() {
     // In a gap it is jumped over, since no pen suits it.
     let changed = between(&line("abc", Some(1)), &line("xbz", Some(1)));
     assert_eq!(changed, frame("\x1b[Hx\x1b[Cz"));
-}
-
-#[test]
-fn the_last_cell_does_not_scroll() {
-    let mut grid = CellGrid::new(4, 2);
-    grid.cells_mut().fill(ink('x', Color::Ansi16(2)));
-    let mut bytes = Vec::new();
-    Encoder::new().encode(&grid, &mut bytes);
-    let mut terminal = terminal(4, 2);
-    terminal.process(&bytes);
-    assert_eq!(terminal.screen().contents(), "xxxx\nxxxx");
-    assert!(!bytes.ends_with(b"\n"));
 }
 
 #[test]

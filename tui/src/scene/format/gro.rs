@@ -84,7 +84,7 @@ fn check_box(line: Line<'_>, stated: Stated) -> Result<(), ReadError> {
         if number(word.bytes).is_none() && word.bytes.iter().any(u8::is_ascii_alphabetic) {
             let Stated { count, line, .. } = stated;
             return Err(word.error(format!(
-                "{} in the box is no number; the number of atoms in line {line} is {count}",
+                "{} in the box is not a number; the number of atoms in line {line} is {count}",
                 excerpt(word.bytes)
             )));
         }
@@ -100,6 +100,6 @@ fn width_of(line: &Line<'_>) -> Result<usize, ReadError> {
         (Some(one), Some(two), Some(three)) if three - two == two - one && two - one < 32 => {
             Ok(two - one)
         }
-        _ => Err(line.error(COORDINATES, "no three coordinates of one width")),
+        _ => Err(line.error(COORDINATES, "the line has no three coordinates of one width")),
     }
 }

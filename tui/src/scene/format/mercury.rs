@@ -80,7 +80,7 @@ fn head(input: &mut Input) -> Result<Option<(Stated, usize)>, ReadError> {
     let mut words = Words::of(line);
     let word = words.expect("the number of particles")?;
     let Some(count) = count(word.bytes) else {
-        return Err(word.error(format!("{} is no number of particles", excerpt(word.bytes))));
+        return Err(word.error(format!("{} is not a number of particles", excerpt(word.bytes))));
     };
     let dimensions = match 1 + words.count() {
         6 => 2,

@@ -125,7 +125,7 @@ fn find_atoms(
         if is_tag {
             let tag = text.split(u8::is_ascii_whitespace).next().unwrap_or_default();
             if tag.len() < text.len() && !text[tag.len()..].trim_ascii().starts_with(b"#") {
-                return Err(line.error(tag.len() + 1, "_atom_site is no loop"));
+                return Err(line.error(tag.len() + 1, "_atom_site is not a loop"));
             }
             tags.push(String::from_utf8_lossy(&tag[11..]).into_owned());
         } else if !tags.is_empty() && !text.is_empty() && text[0] != b'#' {

@@ -23,7 +23,7 @@ impl Stated {
         let text = line.trimmed();
         match count(text) {
             Some(count) => Ok(Self { count, line: line.number, called: "atoms" }),
-            None => Err(line.error(0, format!("{} is no number of atoms", excerpt(text)))),
+            None => Err(line.error(0, format!("{} is not a number of atoms", excerpt(text)))),
         }
     }
 

@@ -256,7 +256,8 @@ fn add(
     if let Some(column) = columns.radius {
         let radius = value(column, "the radius")?;
         if radius < 0.0 {
-            return Err(line.error(fields[column].start, format!("radius is {radius}: negative")));
+            let what = format!("radius is {radius}, which is negative");
+            return Err(line.error(fields[column].start, what));
         }
         particles.radii.push(radius);
     }

@@ -39,14 +39,16 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
         ReadError::in_text(source, text, node.range().start, what)
     };
     if robot.tag_name().name() != "robot" {
-        return Err(wrong(robot, format!("<{}>, not <robot>", robot.tag_name().name())));
+        let name = robot.tag_name().name();
+        return Err(wrong(robot, format!("the root is <{name}>, not <robot>")));
     }
     let origin = |node: Node<'_, '_>| -> Result<DAffine3, ReadError> {
         let Some(origin) = child(node, "origin") else { return Ok(DAffine3::IDENTITY) };
         let three = |name| match origin.attribute(name) {
             None => Ok(DVec3::ZERO),
-            Some(text) => vector(text)
-                .ok_or_else(|| wrong(origin, format!("{name} is {text:?}: not three numbers"))),
+            Some(text) => vector(text).ok_or_else(|| {
+                wrong(origin, format!("{name} is {text:?}, which is not three numbers"))
+            }),
         };
         let angles = three("rpy")?;
         // Roll about x, then pitch about y, then yaw about z, all fixed.
@@ -90,12 +92,13 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
                 let text = sphere.attribute("radius").unwrap_or_default();
                 let radius = text.trim().parse::<f64>().map_or(f32::NAN, |radius| radius as f32);
                 if !(radius.is_finite() && radius >= 0.0) {
-                    let what = format!("radius is {text:?}: no number of zero or more");
+                    let what = format!("radius is {text:?}, which is not a number of zero or more");
                     return Err(wrong(sphere, what));
                 }
                 let center = (transform * origin(part)?).translation;
                 if !center.as_vec3().is_finite() {
-                    let what = format!("at {center}: not finite in single precision");
+                    let what =
+                        format!("a sphere is at {center}, which is not finite in single precision");
                     return Err(wrong(sphere, what));
                 }
                 particles.center(center);
@@ -107,8 +110,8 @@ pub(super) fn read(input: &mut Input, notes: &mut Notes) -> Result<Scene, ReadEr
         if !particles.is_empty() {
             match others {
                 0 => {}
-                1 => notes.note("1 shape that is no sphere is ignored"),
-                _ => notes.note(format!("{others} shapes that are no spheres are ignored")),
+                1 => notes.note("1 shape that is not a sphere is ignored"),
+                _ => notes.note(format!("{others} shapes that are not spheres are ignored")),
             }
             return particles.finish(notes, source);
         }

@@ -22,7 +22,8 @@ impl Word<'_> {
 
     #[cold]
     fn not_finite(&self, name: &str) -> ReadError {
-        self.error(format!("{name} is {}: not finite in single precision", excerpt(self.bytes)))
+        let value = excerpt(self.bytes);
+        self.error(format!("{name} is {value}, which is not finite in single precision"))
     }
 
     /// The number that it is; `name` is what it is called in errors.
@@ -31,8 +32,9 @@ impl Word<'_> {
     /// [`ReadError`] if it is none.
     #[inline]
     pub(super) fn number(&self, name: &str) -> Result<f64, ReadError> {
-        number(self.bytes)
-            .ok_or_else(|| self.error(format!("{name} is {}: no number", excerpt(self.bytes))))
+        number(self.bytes).ok_or_else(|| {
+            self.error(format!("{name} is {}, which is not a number", excerpt(self.bytes)))
+        })
     }
 
     /// A number that single precision can hold, in the double precision of the file.
@@ -62,7 +64,7 @@ impl Word<'_> {
     pub(super) fn radius(&self, name: &str) -> Result<f32, ReadError> {
         let radius = self.single(name, 1.0)?;
         if radius < 0.0 {
-            return Err(self.error(format!("{name} is {radius}: negative")));
+            return Err(self.error(format!("{name} is {radius}, which is negative")));
         }
         Ok(radius)
     }

@@ -1,4 +1,4 @@
-//! The word for a projection: for an enum, toml would take a table, too, and not tell the words where it finds neither.
+//! Reads a projection from its word: for an enum, toml would also take a table, and its errors would not name the words.
 
 use crate::view::LensKind;
 use serde::Deserialize;

@@ -1,4 +1,4 @@
-//! What only a table is read as: for a struct, serde would take an array of its values, too.
+//! Reads a value from a table only: for a struct, serde would take an array of its values, too.
 
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;

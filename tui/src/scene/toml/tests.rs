@@ -95,18 +95,18 @@ fn every_mistake_has_a_line_and_a_column() {
         ),
         ("[[camera]]\n".to_owned(), "1:1: invalid type: sequence, expected a table"),
         (sphere("colour = \"#ffffff\""), "2:1: unknown field"),
-        (radius("-1.0"), "3:10: radius is -1: negative"),
-        (radius("nan"), "3:10: radius is NaN: not finite in single precision"),
-        (radius("inf"), "3:10: radius is inf: not finite in single precision"),
+        (radius("-1.0"), "3:10: radius is -1, which is negative"),
+        (radius("nan"), "3:10: radius is NaN, which is not finite in single precision"),
+        (radius("inf"), "3:10: radius is inf, which is not finite in single precision"),
         (radius("-inf"), "3:10: radius is -inf"),
         (radius("1e39"), "3:10: radius is 1000"),
         (
             sphere("center = [0, 1, nan]\nradius = 1"),
-            "2:17: center is NaN: not finite in single precision",
+            "2:17: center is NaN, which is not finite in single precision",
         ),
         (
             sphere("center = [0, 0, 0]\nradius = 1\ncolor = \"red\""),
-            "4:9: \"red\" is no colour: write \"#rrggbb\"",
+            "4:9: \"red\" is not a colour: write \"#rrggbb\"",
         ),
         (
             "\nlight = \"sun\"\n".to_owned(),
@@ -159,6 +159,6 @@ fn a_camera_may_have_dotted_keys() {
 
 #[test]
 fn a_scene_is_not_empty() {
-    assert_eq!(error(""), "s.toml: an empty scene: at least one [[sphere]]");
+    assert_eq!(error(""), "s.toml: the scene is empty; it needs at least one [[sphere]]");
     assert!(error("sphere = []\n").ends_with("at least one [[sphere]]"));
 }

@@ -25,7 +25,7 @@ pub(super) fn drawing(
 ) -> Vec<(&'static str, Option<String>)> {
     let Shown { style, structure, comparison, table, coloring, legend, .. } = state.shown;
     let is_charset_said = asked.charset.is_some() || style.charset != state.first_charset;
-    // Spheres that look for their rays are in no structure.
+    // Object order uses no structure.
     let is_by_objects = asked.scene.order == Order::Object;
     let (by, range) = colors.to_ask(scene, coloring);
     let is_usual = *by == ColorBy::usual(scene.attributes());

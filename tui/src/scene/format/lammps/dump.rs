@@ -101,7 +101,8 @@ pub(in super::super) fn frame(
         if columns.are_scaled {
             center = cell.point(position);
             if !center.as_vec3().is_finite() {
-                let what = format!("an atom at {center}: not finite in single precision");
+                let what =
+                    format!("an atom is at {center}, which is not finite in single precision");
                 return Err(line.error(0, what));
             }
         }
@@ -228,5 +229,5 @@ impl Columns {
 
 /// The number of an atom.
 pub(super) fn id(word: &Word<'_>) -> Result<i64, ReadError> {
-    parsed(word.bytes).ok_or_else(|| word.error(format!("{} is no id", excerpt(word.bytes))))
+    parsed(word.bytes).ok_or_else(|| word.error(format!("{} is not an id", excerpt(word.bytes))))
 }

@@ -147,7 +147,7 @@ impl Table {
             for (axis, word) in words.into_iter().enumerate() {
                 let value = number(word).filter(|value| (*value as f32).is_finite());
                 center[axis] =
-                    value.ok_or_else(|| format!("{} is no finite coordinate", excerpt(word)))?;
+                    value.ok_or_else(|| format!("{} is not a finite coordinate", excerpt(word)))?;
             }
             let particles = &mut component.particles;
             particles.center(center);

@@ -103,7 +103,7 @@ pub(super) fn header(input: &mut Input) -> Result<(Encoding, Vec<Element>), Read
             }
             [b"element", name, number] => {
                 let Some(count) = count(number) else {
-                    return wrong(number, "is no number of elements");
+                    return wrong(number, "is not a number of elements");
                 };
                 let (is_vertex, properties) = (*name == b"vertex", Vec::new());
                 elements.push(Element { is_vertex, count, properties });
@@ -119,7 +119,7 @@ pub(super) fn header(input: &mut Input) -> Result<(Encoding, Vec<Element>), Read
                 };
                 let (Some((kind, list, name)), Some(element)) = (property, elements.last_mut())
                 else {
-                    return wrong(line.bytes, "is no property");
+                    return wrong(line.bytes, "is not a property");
                 };
                 let name = String::from_utf8_lossy(name).into_owned();
                 element.properties.push(Property { name, kind, list });

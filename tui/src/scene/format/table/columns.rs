@@ -2,7 +2,9 @@
 
 use super::numbered::is_numbered;
 use super::separator::number_before_comment;
+use crate::counted::counted;
 use crate::scene::format::words::excerpt;
+use crate::scene::notes::listed;
 use crate::scene::number::number;
 use std::collections::HashSet;
 use std::ops::Range;
@@ -95,7 +97,8 @@ impl Columns {
                 let numbers: Vec<usize> =
                     chosen.split(',').map(column).collect::<Result<_, _>>()?;
                 let (&[x, y, z] | &[x, y, z, _]) = numbers.as_slice() else {
-                    let what = "--columns: three for x, y and z, and perhaps one for the radius";
+                    let what =
+                        "--columns needs three for x, y and z, and perhaps one for the radius";
                     return Err(what.to_owned());
                 };
                 columns.position = [x, y, z];
@@ -134,7 +137,8 @@ impl Columns {
                 }
             }
             None if names.len() < 3 => {
-                return Err(format!("{} columns; positions are three", names.len()));
+                let columns = counted(names.len() as u64, "column");
+                return Err(format!("{columns}; positions need three"));
             }
             None => {
                 // Behind an index, which has no name.
@@ -212,13 +216,40 @@ fn column_of(names: &[&[u8]], has_names: bool, word: &str) -> Result<usize, Stri
     }
     match word.parse::<usize>() {
         Ok(column) if (1..=names.len()).contains(&column) => Ok(column - 1),
-        _ => Err(format!("--columns: no column {word:?} among {}", names.len())),
+        _ => Err(format!("no column {word:?}; the table has {}", those_of(names, has_names))),
     }
+}
+
+/// What a table has instead of a column: the first of its names, or so many columns.
+fn those_of(names: &[&[u8]], has_names: bool) -> String {
+    if !has_names {
+        return counted(names.len() as u64, "column");
+    }
+    let names: Vec<_> = names.iter().map(|name| String::from_utf8_lossy(name)).collect();
+    let names: Vec<&str> =
+        names.iter().map(|name| &**name).filter(|name| !name.is_empty()).collect();
+    listed(&names)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_unknown_column_is_told_with_those_that_there_are() {
+        let letters = ["", "a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"];
+        let names: Vec<&[u8]> = letters.map(str::as_bytes).into();
+        let error = |count: usize, is_header, chosen| {
+            Columns::new(&names[..count], is_header, Some(chosen)).expect_err("no such column")
+        };
+        assert_eq!(error(4, true, "a,b,z"), "no column \"z\"; the table has a, b, c");
+        assert_eq!(error(4, true, "1,2,9"), "no column \"9\"; the table has 4 columns");
+        assert_eq!(error(4, false, "a,b,c"), "no column \"a\"; the table has 4 columns");
+        assert_eq!(error(1, false, "1,2,3"), "no column \"2\"; the table has 1 column");
+        let many = error(13, true, "a,b,z");
+        assert!(many.starts_with("no column \"z\"; the table has a, b, c, d, "), "{many}");
+        assert!(many.ends_with(", ...") && !many.contains(", l"), "{many}");
+    }
 
     #[test]
     fn a_column_without_a_name_has_its_number() {

@@ -88,5 +88,5 @@ fn the_number_of_rows_may_stand_above_them() {
         assert_eq!(spheres(&scene), EXPECTED, "{name}");
     }
     let message = error_in(&mut table("twice.pts", "2\n2\n1 2 3\n"), 0);
-    assert!(message.ends_with("twice.pts:2:1: 1 columns; positions are three"), "{message}");
+    assert!(message.ends_with("twice.pts:2:1: 1 column; positions need three"), "{message}");
 }

@@ -111,9 +111,9 @@ fn fractions_of_a_box_are_at_finite_points() {
         [("nan 1", "0 0 0"), ("0 inf", "0 0 0"), ("0 1e300", "0.5 0 0"), ("-1e38 1e38", "3 0 0")]
     {
         let message = error(dump("xs ys zs", bounds, atom));
-        let what = "]: not finite in single precision";
+        let what = "], which is not finite in single precision";
         assert!(
-            message.starts_with("f:10:1: an atom at [") && message.ends_with(what),
+            message.starts_with("f:10:1: an atom is at [") && message.ends_with(what),
             "{message}"
         );
     }

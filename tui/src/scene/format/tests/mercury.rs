@@ -52,7 +52,7 @@ fn mercury_that_lies() {
     let second = |text: &str| error_in(&mut film("lies.data", text), 1);
     let what = "3:1: 14 values; a number of particles, a time and a box are 6 or 8";
     assert!(second(&frame(1)).ends_with(what));
-    let what = "4:1: \"-1\" is no number of particles";
+    let what = "4:1: \"-1\" is not a number of particles";
     assert!(second(&(frame(2) + "-1 0 0 0 0 1 1 1\n")).ends_with(what));
     wrong(frame(3) + &frame(2), "f:4:16: qy is missing");
     wrong(frame(2).replace(" 1 0 0", " -1 0 0"), "f:2:13: the radius is -1");

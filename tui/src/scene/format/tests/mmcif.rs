@@ -156,7 +156,7 @@ fn mmcif_components_of_an_entry_are_no_frames() {
 
 #[test]
 fn mmcif_components_that_lie() {
-    let what = "\"x\" is no finite coordinate";
+    let what = "\"x\" is not a finite coordinate";
     let loops = component("BAD", "BAD C1 C 1 2 3 7 8 9\nBAD C2 C 1 x 3 7 8 9\n");
     assert_eq!(error(loops), format!("f:20:1: {what}"));
     assert_eq!(error(ion("MG MG MG x 0 0 . . .")), format!("f:11:1: {what}"));
@@ -172,5 +172,5 @@ fn mmcif_components_that_lie() {
     assert!(frames.has(1).is_err());
     // What the row lacks is not taken from the next block.
     let text = format!("{cut}{}", component("SEE", "SEE C1 C 1 2 3 7 8 9\n"));
-    assert_eq!(error(text), "f:21:1: \"data_SEE\" is no finite coordinate");
+    assert_eq!(error(text), "f:21:1: \"data_SEE\" is not a finite coordinate");
 }

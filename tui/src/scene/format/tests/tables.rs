@@ -66,7 +66,7 @@ fn a_comment_follows_a_number() {
     assert_eq!(error("# x,y,z,r\n4,5,6 # a, 7\n"), format!("f:2:13: {what}"));
     let kept = numbers(&good("x,y,z,q\n0,0,0,1\n4,5,6 # moved by 5, 7\n"), "q").expect("numbers");
     assert!(kept[0] == 1.0 && kept[1].is_nan());
-    assert_eq!(error("x,y,z\n1,2,3a # c\n"), "f:2:5: z is \"3a # c\": no number");
+    assert_eq!(error("x,y,z\n1,2,3a # c\n"), "f:2:5: z is \"3a # c\", which is not a number");
 }
 
 /// What is not named would shift the names of the others.
@@ -203,7 +203,7 @@ fn a_diameter_that_is_missing_is_no_radius() {
     let scene = good("x,y,z,diameter\n1,2,3\n4,5,6,2\n");
     assert_eq!(spheres(&scene), [missing, [4.0, 5.0, 6.0, 1.0]]);
     let message = error("x,y,z,diameter\n1,2,3,wide\n");
-    assert_eq!(message, "f:2:7: the diameter is \"wide\": no number");
+    assert_eq!(message, "f:2:7: the diameter is \"wide\", which is not a number");
 }
 
 #[test]

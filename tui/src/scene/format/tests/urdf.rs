@@ -24,8 +24,8 @@ fn shapes_that_are_no_spheres_are_said() {
         notes("shapes.urdf", &format!("\n<robot><link name='l'>{SPHERE}{boxes}</link></robot>"))
     };
     assert!(others(0).is_empty());
-    assert_eq!(others(1), ["1 shape that is no sphere is ignored"]);
-    assert_eq!(others(2), ["2 shapes that are no spheres are ignored"]);
+    assert_eq!(others(1), ["1 shape that is not a sphere is ignored"]);
+    assert_eq!(others(2), ["2 shapes that are not spheres are ignored"]);
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn an_unknown_type_is_grey() {
     let reading = Reading { strict: true, ..Reading::default() };
     let strict = &mut frames_of("strict.xyz", "2\n\nH 0 0 0\nXx 1 0 0\n", &reading);
     let message = error_in(strict, 0);
-    assert!(message.contains("strict.xyz:4:1: \"Xx\" is no element"), "{message}");
+    assert!(message.contains("strict.xyz:4:1: \"Xx\" is not an element"), "{message}");
     let grey = &mut film("grey.xyz", "3\n\nXx 0 0 0\nYy 1 0 0\nXx 2 0 0\n");
     assert!(frame(grey, 0).is_some());
     assert_eq!(grey.notes(), ["3 particles are of 2 unknown types (Xx, Yy): drawn grey"]);
@@ -87,7 +87,7 @@ fn a_diameter_is_twice_the_radius_which_wins() {
     // Missing: carbon's.
     assert_eq!(["nan", "-20"].map(|missing| radius("diameter:R:1", missing)), [1.70; 2]);
     let message = error("1\nProperties=pos:R:3:diameter:R:1\n0 0 0 wide\n");
-    assert_eq!(message, "f:3:7: diameter is \"wide\": no number");
+    assert_eq!(message, "f:3:7: diameter is \"wide\", which is not a number");
 }
 
 #[test]
@@ -106,5 +106,5 @@ fn truths_are_told_in_any_case() {
     let atoms: String = words.iter().map(|word| format!("C 0 0 0 {word}\n")).collect();
     let text = format!("{}\nProperties=species:S:1:pos:R:3:fixed:L:1\n{atoms}", words.len());
     assert_eq!(numbers(&good(text), "fixed"), Some([[1.0; 5], [0.0; 5]].concat()));
-    wrong("1\nProperties=pos:R:3:fixed:L:1\n0 0 0 yes\n", "no number");
+    wrong("1\nProperties=pos:R:3:fixed:L:1\n0 0 0 yes\n", "which is not a number");
 }

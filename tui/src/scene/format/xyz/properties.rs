@@ -81,7 +81,7 @@ pub(super) fn properties(comment: &Line<'_>) -> Result<Option<Vec<Property<'stat
         let columns = count(triple[2]).filter(|&columns| columns > 0 && columns <= 1 << 24);
         let (Some(columns), [b'S' | b'R' | b'I' | b'L']) = (columns, triple[1]) else {
             return wrong(format!(
-                "Properties: {} is no name:type:columns",
+                "Properties: {} is not name:type:columns",
                 excerpt(&triple.join(&b':'))
             ));
         };

@@ -35,7 +35,7 @@ fn a_frame_that_is_wrong_is_told_of_where_it_would_be_next() {
         assert!(x == 19 || film.status().starts_with(&format!("{x}/")), "{}", film.status());
     }
     // The status line has no room for all of it. Whoever asks again is told again.
-    let why = format!("frame 20: {name}:84:3: x is \"x\": no number");
+    let why = format!("frame 20: {name}:84:3: x is \"x\", which is not a number");
     for _ in 0..2 {
         assert!(film.next().is_none() && news(&mut film).starts_with(&why));
         assert!(film.next().is_none() && film.take_news().is_empty());
