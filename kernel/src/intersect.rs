@@ -63,8 +63,9 @@ use crate::trace::Trace;
 /// shuffled rays of a long call takes 130 to 160 KiB by slices with AVX2, 96 to 128 at the baseline. (Rust's threads have 2 MiB
 /// by default.) Rays that are not sorted take up to 110 KiB in a tree by slices; in a list 46.
 ///
-/// These are figures of optimised builds. At `opt-level = 0` a tree takes up to 0.4 MiB, since there the rays of slices and packets go
-/// one by one; tiles take up to 1 MiB, a list 1.6, and a depth list 3: more than Rust's threads have.
+/// These are figures of optimised builds. At `opt-level = 0` a tree takes up to 0.4 MiB, by `Fast` and `Geometric` 0.8, since there the
+/// rays of slices, packets and tiles go one by one. Lanes of your own take 2.3 MiB there, a list 1.6, and a depth list 3: Rust's threads
+/// have less.
 ///
 /// Without `std`, slices take some 8 KiB in a list. On a Cortex-M4F, one ray a call takes 0.6 to 2.9 KiB in a list or a
 /// [`Bvh4`](crate::Bvh4), by tier, and some 8 in a [`Bvh`](crate::Bvh); `docs/targets.md` says how much to provide.

@@ -110,7 +110,7 @@ fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
     let (mut apart, mut efforts, mut of_group) =
         (0, Efforts::default(), [Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]);
     for number in 0..tried {
-        // From everywhere in turn, since those of the first camera come first.
+        // From all of the call in turn: its first rays are one part of a picture.
         let place = number * 13 % tried;
         let (Some(group), Some(&count)) = (groups.get(place), counts.get(place)) else { break };
         let group = group.get(..count).unwrap_or(group);

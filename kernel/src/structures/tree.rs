@@ -3,6 +3,8 @@
 //! Without optimisation every ray goes by itself: the code for many keeps each of its values in a place of its own, and takes more stack
 //! than a thread has.
 
+#[cfg(feature = "std")]
+use super::count_of;
 #[cfg(not(feature = "std"))]
 use super::of_the_build;
 use super::{LevelQuery, Traverse};
@@ -22,7 +24,7 @@ use crate::coherent::ray_order::GainByOrder;
 use crate::coherent::tree_source::Alone;
 use crate::coherent::tree_source::{self, Ways};
 #[cfg(feature = "std")]
-use crate::dispatch::compiled::{Compiled, leaves_held};
+use crate::dispatch::compiled::{Compiled, fill_tiles, leaves_held};
 #[cfg(feature = "std")]
 use crate::dispatch::{Level, LevelName};
 use crate::geometry::camera::tiles::CameraTiles;
@@ -80,9 +82,10 @@ impl Traverse for Bvh<'_> {
     ) {
         #[cfg(feature = "std")]
         if cfg!(unoptimised) {
-            answers.fill(Q::none::<[f32; 16]>());
             let of_bits = u64::BITS as usize;
             for (rays, answers) in rays.chunks(of_bits).zip(answers.chunks_mut(of_bits)) {
+                let (count, none) = (rays.len().min(answers.len()), Q::none::<[f32; 16]>());
+                answers.iter_mut().take(count).for_each(|answer| *answer = none);
                 one_by_one::<Q>(self, tier, trace, (&[], rays, u64::MAX), answers);
             }
         } else {
@@ -118,7 +121,7 @@ impl Traverse for Bvh<'_> {
     #[cfg(feature = "alloc")]
     fn gain_by_order<Q: LevelQuery>(&self, trace: &Trace<'_>) -> Option<GainByOrder> {
         // (With memory lent, too, 65,536 rays would go down together.)
-        if trace.stream.is_some() {
+        if cfg!(unoptimised) || trace.stream.is_some() {
             return None;
         }
         trace.learnt.gain_by_order::<Q>(self, trace.coherence)
@@ -166,6 +169,12 @@ impl Traverse for Bvh<'_> {
         rays: &mut [RayPacket],
         hits: &mut [HitPacket],
     ) {
+        if cfg!(unoptimised) {
+            let count = count_of(&tiles, rays.len(), hits.len());
+            let rays = rays.get_mut(..count).unwrap_or_default();
+            fill_tiles(trace.level, tiles, rays);
+            return self.in_packets::<ClosestHit>(tier, trace, rays, hits);
+        }
         let source = PacketSource::Tiles(tiles, rays);
         <ClosestHit as Compiled>::tree(trace.level, tier.tier(), self, ways(trace), source, hits);
     }

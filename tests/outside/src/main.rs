@@ -5,8 +5,8 @@
 
 use rustix::time::{ClockId, clock_gettime};
 use spherule_kernel::{
-    Accuracy, Bvh, Camera, DepthList, Exact, Fast, Hit, HitPacket, Intersect, Level, LevelName,
-    Projection, Ray, RayPacket, SphereList, SphereTree, Trace, Vec3, Viewpoint,
+    Accuracy, Bvh, Camera, CameraTiles, DepthList, Exact, Fast, Hit, HitPacket, Intersect, Level,
+    LevelName, Projection, Ray, RayPacket, SphereList, SphereTree, Trace, Vec3, Viewpoint,
 };
 use std::hint::black_box;
 use std::thread;
@@ -139,35 +139,60 @@ fn seconds() -> f64 {
 }
 
 /// Shuffled rays in a tree take the most stack, no more than `Intersect` says to provide: with less, the process ends.
-fn stack_suffices(tree: &SphereTree) {
-    const PROVIDED: usize = if cfg!(debug_assertions) { 512 << 10 } else { 256 << 10 };
+fn stack_suffices(tree: &SphereTree, provided: usize) {
     let mut state = 3;
     let mut away = || Ray::new(EYE, point(&mut state) - EYE);
     let rays: Vec<Ray> = (0..40_000).map(|_| away()).collect();
     let packets: Vec<RayPacket> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
     for level in LevelName::ALL.into_iter().filter_map(Level::named) {
-        let (mut hits, mut of_packets) =
-            (vec![None; rays.len()], vec![HitPacket::none(); packets.len()]);
+        let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+        let mut of_packets = vec![HitPacket::none(); packets.len()];
         let call = || {
+            tree.any_hits_with(Fast, &mut Trace::new().at(level), &rays, &mut occluded);
+            tree.closest_hits_with(Fast, &mut Trace::new().at(level), &rays, &mut hits);
             tree.closest_hits_with(Exact, &mut Trace::new().at(level), &rays, &mut hits);
+            // Tiles so far apart that their rays have little in common; packets after them, by the same trace.
             let mut trace = Trace::new().at(level);
+            let (mut tiles, mut seen) = ([RayPacket::inactive(); 64], [HitPacket::none(); 65]);
+            tree.closest_hit_tiles(Exact, &mut trace, apart(), &mut tiles, &mut seen);
+            assert!(seen[64] == HitPacket::none() && seen[..64] != [HitPacket::none(); 64]);
             tree.closest_hit_packets(Exact, &mut trace, &packets, &mut of_packets);
         };
         thread::scope(|scope| {
-            let thread = thread::Builder::new().stack_size(PROVIDED).spawn_scoped(scope, call);
+            let thread = thread::Builder::new().stack_size(provided).spawn_scoped(scope, call);
             thread.expect("a thread").join().expect("no panic");
         });
         assert!(of_packets.iter().flat_map(HitPacket::hits).eq(hits.iter().copied()));
     }
 }
 
+/// Tiles of a camera whose pixels are as far apart as the spheres.
+fn apart() -> CameraTiles<'static> {
+    const CORNERS: [(u32, u32); 64] = {
+        let (mut corners, mut place) = ([(0, 0); 64], 0);
+        while place < 64 {
+            corners[place] = (place as u32 % 8 * 4, place as u32 / 8 * 4);
+            place += 1;
+        }
+        corners
+    };
+    let camera = Camera {
+        projection: Projection::Perspective { eye: EYE },
+        corner: Vec3::new(-1.0, 1.0, 3.0),
+        step_x: Vec3::new(1.0 / 16.0, 0.0, 0.0),
+        step_y: Vec3::new(0.0, -1.0 / 16.0, 0.0),
+    };
+    CameraTiles { camera, size: (32, 32), corners: &CORNERS }
+}
+
 fn main() {
     let (few, many) = (cloud(64, 0.1), cloud(10_000, 0.02));
     let tree = SphereTree::new(many.clone());
-    stack_suffices(&tree);
+    // `compare` says so to a program that is not optimised.
     if std::env::args().nth(1).is_some_and(|argument| argument == "stack") {
-        return;
+        return stack_suffices(&tree, 1 << 20);
     }
+    stack_suffices(&tree, if cfg!(debug_assertions) { 512 << 10 } else { 256 << 10 });
     let mut memory = vec![0.0; DepthList::needed(many.len())];
     let mut scratch = vec![0.0; DepthList::scratch(many.len())];
     let sorted = DepthList::sort(many.spheres(), Viewpoint::Origin(EYE), &mut memory)
