@@ -1,5 +1,5 @@
 //! Two tiers side by side: the columns left of a seam by one tier, those right of it by the other. Below is what each
-//! takes and gets wrong.
+//! gets wrong.
 
 use super::error_map::ErrorMapper;
 use super::grouped;
@@ -11,15 +11,12 @@ use crate::style::{Charset, Style};
 use crate::view::View;
 use spherule_kernel::{Camera, ClosestHit, RayPacket, Stages, Tier, stages};
 use std::ops::Range;
-use std::time::Instant;
 
 /// The rows of the figures, and the fewest rows of a picture that has them.
 const FIGURES: u16 = 2;
 const FEWEST_ROWS: u16 = 4;
 /// The most tests of a ray against a sphere whose stages are counted.
 const MOST_TESTS: usize = 1 << 22;
-/// How many of the last times the median is taken of.
-const TIMES: usize = 9;
 
 /// A picture cut in two.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,15 +27,6 @@ pub struct Split {
     pub seam: u16,
 }
 
-/// A drawn picture, and the nanoseconds a ray of each half; `None` for a half without rays.
-#[derive(Clone, Debug)]
-pub struct SplitPicture {
-    /// Without figures.
-    pub drawn: Drawn,
-    /// Shadow rays count as rays.
-    pub ns_a_ray: [Option<f64>; 2],
-}
-
 /// What the tier of a half gets wrong, and which stages its tests reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HalfFigures {
@@ -47,7 +35,8 @@ pub struct HalfFigures {
     /// Rays with another answer than that of `Exact`, beside rounding.
     pub wrong: u64,
     /// The stages of every test that there is, as if by brute force; of some rays only, if there are too many tests.
-    pub stages: Stages,
+    /// `None` except for `Exact`: the other tiers have only single precision.
+    pub stages: Option<Stages>,
 }
 
 impl Split {
@@ -58,7 +47,7 @@ impl Split {
         [0..seam, seam.saturating_add(1).min(columns)..columns]
     }
 
-    /// Draws both halves and the seam.
+    /// Draws both halves and the seam, without figures.
     #[must_use]
     pub fn draw(
         &self,
@@ -68,18 +57,14 @@ impl Split {
         style: &Style,
         (columns, rows): (u16, u16),
         spending: Spending,
-    ) -> SplitPicture {
-        let mut cells = CellGrid::new(columns, rows);
-        let (mut effort, mut ns_a_ray) = (Effort::NONE, [None; 2]);
-        let halves = self.halves(columns).into_iter().zip(self.tiers).zip(&mut ns_a_ray);
-        for ((half, accuracy), ns_a_ray) in halves.filter(|((half, _), _)| !half.is_empty()) {
+    ) -> Drawn {
+        let (mut cells, mut effort) = (CellGrid::new(columns, rows), Effort::NONE);
+        let halves = self.halves(columns).into_iter().zip(self.tiers);
+        for (half, accuracy) in halves.filter(|(half, _)| !half.is_empty()) {
             let style = Style { accuracy, ..*style };
             let part = spending.part(half.len(), usize::from(columns));
-            let start = Instant::now();
             let drawn =
                 renderer.draw_columns(scene, view, &style, (columns, rows), half.clone(), part);
-            let ns = start.elapsed().as_secs_f64() * 1e9;
-            *ns_a_ray = (drawn.effort.rays > 0).then(|| ns / drawn.effort.rays as f64);
             let own = half.len();
             let lines = cells.cells_mut().chunks_mut(usize::from(columns));
             for (line, half_line) in lines.zip(drawn.cells.cells().chunks(own)) {
@@ -91,7 +76,7 @@ impl Split {
         for row in 0..rows {
             cells.write(self.seam, row, seam, Color::Default, Color::Default);
         }
-        SplitPicture { drawn: Drawn { cells, effort }, ns_a_ray }
+        Drawn { cells, effort }
     }
 
     /// Compares both halves with `Exact`. This is for pictures at rest: it takes as long as a picture.
@@ -111,47 +96,52 @@ impl Split {
             let machine = renderer.machine();
             let map =
                 mapper.map_columns((scene, search), view, &style, size, &half, machine, |_| {});
-            let stages = match accuracy {
-                Tier::Exact => stages_of(scene, view, &style, size, &half),
-                // The other tiers have only single precision.
-                _ => Stages::default(),
-            };
+            let is_exact = accuracy == Tier::Exact;
+            let stages = is_exact.then(|| stages_of(scene, view, &style, size, &half));
             HalfFigures { rays: map.effort().samples, wrong: map.counts.wrong_decisions(), stages }
         };
         [of_half(left, self.tiers[0]), of_half(right, self.tiers[1])]
     }
 
-    /// Writes below each half, over the last rows, what it takes and gets wrong, as far as that is known.
-    pub fn write(
-        &self,
-        cells: &mut CellGrid,
-        rows: u16,
-        ns_a_ray: [Option<f64>; 2],
-        figures: Option<[HalfFigures; 2]>,
-    ) {
+    /// Writes below each half, over the last rows, its tier and what that gets wrong, as far as it is known.
+    pub fn write(&self, cells: &mut CellGrid, rows: u16, figures: Option<[HalfFigures; 2]>) {
         if rows < FEWEST_ROWS {
             return;
         }
         for (index, half) in self.halves(cells.columns()).into_iter().enumerate() {
             let width = half.len();
-            let name = self.tiers[index].as_str();
-            let ns = ns_a_ray[index].map(|ns| format!("  {ns:.1} ns/ray"));
-            let first = format!(" {name}{}", ns.unwrap_or_default());
-            let second = figures.map_or_else(|| " wrong -".to_owned(), |both| text(&both[index]));
-            for (line, row) in [first, second].iter().zip(rows - FIGURES..) {
-                // Cut at the seam.
-                let line: String = format!("{line:width$}").chars().take(width).collect();
+            let name = vec![self.tiers[index].as_str().to_owned()];
+            let words = figures.map_or_else(|| vec!["wrong -".to_owned()], |of| words(&of[index]));
+            for (words, row) in [name, words].iter().zip(rows - FIGURES..) {
+                let line = line(words, width);
                 cells.write(half.start, row, &line, Color::Default, Color::Default);
             }
         }
     }
 }
 
-fn text(figures: &HalfFigures) -> String {
+/// The figures in words, the most important first.
+fn words(figures: &HalfFigures) -> Vec<String> {
     let HalfFigures { rays, wrong, stages } = figures;
-    let share = |tests: u64| 100.0 * tests as f64 / (stages.tests as f64).max(1.0);
-    let wrong = format!(" wrong {} of {}", grouped(*wrong), grouped(*rays));
-    format!("{wrong} f64 {:.1}% sums {:.3}%", share(stages.double), share(stages.expansions))
+    let mut words = vec![format!("wrong {} of {}", grouped(*wrong), grouped(*rays))];
+    if let Some(stages) = stages {
+        let share = |tests: u64| 100.0 * tests as f64 / (stages.tests as f64).max(1.0);
+        words.push(format!("f64 {:.1}%", share(stages.double)));
+        words.push(format!("sums {:.3}%", share(stages.expansions)));
+    }
+    words
+}
+
+/// A line of this `width`, with as many of the `words` as it has room for: a number that is cut is another number.
+fn line(words: &[String], width: usize) -> String {
+    let mut line = String::new();
+    for word in words {
+        if line.len() + 1 + word.len() > width {
+            break;
+        }
+        line = line + " " + word;
+    }
+    format!("{line:width$}")
 }
 
 /// The stages of the camera rays through some columns.
@@ -175,29 +165,39 @@ fn stages_of(
     stages(ClosestHit, &packets, scene.spheres())
 }
 
-/// The last times of both halves.
-#[derive(Clone, Debug, Default)]
-pub struct Times {
-    of: Option<[Tier; 2]>,
-    last: [Vec<f64>; 2],
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Times {
-    /// Takes note of a picture of these `tiers`, and returns the medians of the last times, which can be read.
-    pub fn medians(&mut self, tiers: [Tier; 2], ns_a_ray: [Option<f64>; 2]) -> [Option<f64>; 2] {
-        if self.of != Some(tiers) {
-            *self = Self { of: Some(tiers), ..Self::default() };
+    /// The last row of a picture of so many columns, whose seam is in the middle.
+    fn last_row(columns: u16, figures: Option<[HalfFigures; 2]>) -> String {
+        let mut cells = CellGrid::new(columns, FEWEST_ROWS);
+        let split = Split { tiers: [Tier::Fast, Tier::Exact], seam: columns / 2 };
+        split.write(&mut cells, FEWEST_ROWS, figures);
+        cells.lines().pop().unwrap_or_default()
+    }
+
+    /// Only `Exact` has more than single precision.
+    #[test]
+    fn figures_are_written_whole_or_not_at_all() {
+        let stages = Stages { tests: 1000, double: 44, expansions: 2 };
+        let fast = HalfFigures { rays: 3600, wrong: 53, stages: None };
+        let exact = HalfFigures { rays: 3600, wrong: 0, stages: Some(stages) };
+        let (left, right) = ("wrong 53 of 3,600", "wrong 0 of 3,600");
+        for (columns, expected) in [
+            (91, [left, &format!("{right} f64 4.4% sums 0.200%")]),
+            (77, [left, &format!("{right} f64 4.4% sums 0.200%")]),
+            (75, [left, &format!("{right} f64 4.4%")]),
+            (53, [left, &format!("{right} f64 4.4%")]),
+            (51, [left, right]),
+            (35, ["", right]),
+            (33, ["", ""]),
+        ] {
+            let row = last_row(columns, Some([fast, exact]));
+            let halves = row.split_at(usize::from(columns / 2));
+            let halves = [halves.0, &halves.1[1..]].map(str::trim);
+            assert_eq!(halves, expected, "{columns}");
         }
-        for (last, ns) in self.last.iter_mut().zip(ns_a_ray) {
-            last.extend(ns);
-            if last.len() > TIMES {
-                last.remove(0);
-            }
-        }
-        self.last.each_ref().map(|last| {
-            let mut sorted = last.clone();
-            sorted.sort_by(f64::total_cmp);
-            sorted.get(sorted.len() / 2).copied()
-        })
+        assert_eq!(last_row(21, None).matches(" wrong -").count(), 2);
     }
 }

@@ -57,9 +57,22 @@ impl Chart {
 
     /// A mark at a point, and a name beside it.
     pub(super) fn mark(&self, canvas: &mut Canvas, point: Vec3, text: &str, role: Role) {
+        self.mark_beside(canvas, (point, Vec3::ZERO), text, role);
+    }
+
+    /// A name a row away from a point, towards `side`, so that it covers nothing there.
+    pub(super) fn mark_beside(
+        &self,
+        canvas: &mut Canvas,
+        (point, side): (Vec3, Vec3),
+        text: &str,
+        role: Role,
+    ) {
         let [column, row] = self.place(point).map(|x| x.floor() as i32);
-        for (column, glyph) in (column..).zip(text.chars()) {
-            self.put(canvas, column, row, glyph, role);
+        let side = side.normalize_or_zero();
+        let [right, up] = [COLUMNS_A_ROW * side.x, side.y].map(|x| x.round() as i32);
+        for (column, glyph) in (column + right..).zip(text.chars()) {
+            self.put(canvas, column, row - up, glyph, role);
         }
     }
 
@@ -148,7 +161,8 @@ fn is_flat(glyph: char) -> bool {
 
 /// The character for a line of this direction, in cells, at this share of the cell's height from its top.
 fn stroke([right, down]: [f32; 2], height: f32) -> char {
-    if down.abs() < 0.55 * right.abs() {
+    // What does not move at all is flat: a line from a point to itself.
+    if down.abs() <= 0.55 * right.abs() {
         return match height {
             0.0..0.33 => '\'',
             0.33..0.67 => '-',
@@ -191,6 +205,17 @@ mod tests {
         });
         assert_eq!(level[4], format!("{}{}", " ".repeat(6), "-".repeat(14)));
         assert!((0..10).all(|row| row == 4 || level[row].trim().is_empty()));
+    }
+
+    /// An interval may be a single point.
+    #[test]
+    fn a_line_from_a_point_to_itself_does_not_slant() {
+        for y in [-0.2, 0.0, 0.5] {
+            let point = Vec3::new(0.0, y, 0.0);
+            let rows = drawn(|chart, canvas| chart.line(canvas, [point; 2], Role::Ray));
+            let ink: Vec<char> = rows.concat().chars().filter(|&glyph| glyph != ' ').collect();
+            assert!(ink.len() == 1 && is_flat(ink[0]), "{ink:?}");
+        }
     }
 
     #[test]

@@ -1,5 +1,8 @@
 //! Every station at every size, and its numbers against the kernel's.
 
+mod light;
+mod names;
+mod orders;
 mod room;
 
 use super::canvas::Canvas;

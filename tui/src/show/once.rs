@@ -4,7 +4,7 @@ use crate::cells::CellGrid;
 use crate::coloring::legend::Legend;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::legend::MapPainter;
-use crate::compare::split::{Split, SplitPicture};
+use crate::compare::split::Split;
 use crate::draw::{Renderer, Spending};
 use crate::encode;
 use crate::error::{Error, write_stdout};
@@ -101,17 +101,13 @@ impl Once<'_> {
         renderer: &mut Renderer<'_>,
         search: &PictureSearch<'_>,
     ) -> Result<(), Error> {
-        let Self { scene, view, style, size, is_terminal } = self;
+        let Self { scene, view, style, size, .. } = self;
         let split = Split { tiers, seam: size.0 / 2 };
         let (scene, need) = ((*scene, search), Spending::ByNeed);
-        let SplitPicture { drawn, ns_a_ray } =
-            split.draw(renderer, scene, view, style, *size, need);
+        let mut cells = split.draw(renderer, scene, view, style, *size, need).cells;
         let mapper = &mut ErrorMapper::default();
         let figures = split.figures(renderer, mapper, scene, view, style, *size);
-        let mut cells = drawn.cells;
-        // Measured times are never the same twice, so a file or a pipe gets none.
-        let ns_a_ray = if *is_terminal { ns_a_ray } else { [None; 2] };
-        split.write(&mut cells, size.1, ns_a_ray, Some(figures));
+        split.write(&mut cells, size.1, Some(figures));
         write(&cells)
     }
 

@@ -103,6 +103,7 @@ impl Report {
             json!({
                 "accuracy": tier.tier.as_str(),
                 "rays_kind": tier.rays_kind,
+                "rays": tier.rays,
                 "ns_per_ray": rounded(tier.ns_per_ray()),
                 "ns_per_test": rounded(tier.ns_per_ray() / self.spheres as f64),
                 "mrays_per_s": rounded(tier.mrays_per_s()),
@@ -118,6 +119,7 @@ impl Report {
         };
         let report = json!({
             "scene": scene,
+            "spheres": self.spheres,
             "cpu": self.cpu,
             "rustc": RUSTC,
             "level": self.level.as_str(),
@@ -229,8 +231,9 @@ Wrong: the closest hit differs from that of exact, counted in rays; wrong sphere
 the same at its other root. ulp: of t, where both meet the same sphere at the same root. Times are
 medians of passes in turns, without the building of a structure, for shadow rays those of any hit. A
 test is a ray and a sphere, whether a structure makes it or not. Shadow rays are those of exact; the
-other tiers' own start farther from the surface. A normal is wrong if it differs by 1/256; a shadow
-if a point receives a light by one of both tiers alone. In image order every ray is tested against
-every sphere, and writes its pixel once. In object order a sphere is tested against the packets of
-rays in its bounds on the screen; a write is a hit that is stored.
+other tiers' own start farther from the surface. They are measured even if the scene's pictures cast
+none. If there are many rays, only some of them have points. A normal is wrong if it differs by
+1/256; a shadow if a point receives a light by one of both tiers alone. In image order every ray is
+tested against every sphere, and writes its pixel once. In object order a sphere is tested against
+the packets of rays in its bounds on the screen; a write is a hit that is stored.
 ";

@@ -10,7 +10,7 @@ use crate::cells::CellGrid;
 use crate::compare::Comparison;
 use crate::compare::error_map::ErrorMapper;
 use crate::compare::legend::MapPainter;
-use crate::compare::split::{Split, SplitPicture, Times};
+use crate::compare::split::Split;
 use crate::draw::pixels::{PixelGrid, SAMPLES};
 use crate::draw::{Drawn, Effort, Renderer, Spending, picture_workload};
 use crate::error::Error;
@@ -27,7 +27,6 @@ pub(super) struct Studio<'a> {
     pub(super) structures: SceneStructures<'a>,
     renderer: Renderer<'a>,
     mapper: ErrorMapper,
-    times: Times,
 }
 
 /// How a picture is drawn.
@@ -43,8 +42,7 @@ pub(super) struct Manner {
 impl<'a> Studio<'a> {
     /// A studio that has drawn nothing yet.
     pub(super) fn new(structures: SceneStructures<'a>, renderer: Renderer<'a>) -> Self {
-        let (mapper, times) = (ErrorMapper::default(), Times::default());
-        Self { structures, renderer, mapper, times }
+        Self { structures, renderer, mapper: ErrorMapper::default() }
     }
 
     /// The threads that draw: to stop them ends the picture that is being drawn, which is then worthless.
@@ -113,7 +111,7 @@ impl<'a> Studio<'a> {
         wanted: &Wanted,
         Manner { seam, moving, spending }: Manner,
     ) -> Result<(Picture, Duration), Error> {
-        let (Wanted { pictured, size, .. }, threads) = (wanted, self.threads());
+        let Wanted { pictured, size, .. } = wanted;
         let Shown { view, style, structure, comparison, .. } = pictured;
         let count = scene.spheres().len();
         let workload = picture_workload(count, style, size.0, size.1, f64::INFINITY);
@@ -124,16 +122,13 @@ impl<'a> Studio<'a> {
             None => self.renderer.draw(scene, &search, view, style, *size, spending),
             Some(Comparison::Split(tiers)) => {
                 let split = Split { tiers: *tiers, seam };
-                let SplitPicture { mut drawn, ns_a_ray } =
-                    split.draw(&mut self.renderer, searched, view, style, *size, spending);
+                let renderer = &mut self.renderer;
+                let mut drawn = split.draw(renderer, searched, view, style, *size, spending);
                 // Wrong answers are counted at rest: counting takes as long as a picture.
                 let (renderer, mapper) = (&self.renderer, &mut self.mapper);
                 let figures = (!moving)
                     .then(|| split.figures(renderer, mapper, searched, view, style, *size));
-                // Those of a picture that no one waits for say nothing.
-                let ns_a_ray = if threads.are_stopped() { [None; 2] } else { ns_a_ray };
-                let medians = self.times.medians(*tiers, ns_a_ray);
-                split.write(&mut drawn.cells, size.1, medians, figures);
+                split.write(&mut drawn.cells, size.1, figures);
                 drawn.effort.is_full &= !moving;
                 drawn
             }

@@ -30,8 +30,10 @@ fn the_keys_and_their_types() {
     let report = measured("marbles --size 20x8");
     let keys: Vec<&str> =
         report.as_object().expect("an object").keys().map(String::as_str).collect();
-    let expected = "cpu lanes level lighting order orders rustc scene structure threads tiers";
+    let expected =
+        "cpu lanes level lighting order orders rustc scene spheres structure threads tiers";
     assert_eq!(keys.join(" "), expected);
+    assert_eq!(report["spheres"], 10);
     assert_eq!((&report["scene"], &report["lanes"]), (&"marbles".into(), &16.into()));
     assert_eq!(report["order"], "image");
     assert!(report["cpu"].is_string() && report["level"].is_string());
@@ -40,7 +42,9 @@ fn the_keys_and_their_types() {
     for kind in ["camera", "shadow"] {
         for accuracy in TIERS {
             let tier = tier(&report, accuracy, kind);
-            assert_eq!(tier.as_object().map(serde_json::Map::len), Some(13));
+            assert_eq!(tier.as_object().map(serde_json::Map::len), Some(14));
+            let rays = tier["rays"].as_u64().expect("a count");
+            assert!(if kind == "camera" { rays == 640 } else { rays > 0 }, "{tier}");
             for key in ["ns_per_ray", "ns_per_test", "mrays_per_s"] {
                 assert!(tier[key].as_f64().expect(key) > 0.0, "{tier}");
             }
@@ -132,6 +136,9 @@ fn a_table_for_people() {
     }
     assert!(!text.contains('\x1b') && !text.contains('\r'));
     assert!(text.lines().all(|line| line.len() <= 110), "{text}");
+    for words in ["measured even if the scene's pictures cast", "only some of them have points"] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
     let head = prints("tradeoff unit --size 4x4 --level baseline --threads 1 --structure bvh");
     assert!(head.starts_with("unit: 1 sphere, bvh\n"), "{head}");
     assert!(head.contains(" baseline, 16 lanes, 1 thread;"), "{head}");

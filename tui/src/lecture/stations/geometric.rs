@@ -37,13 +37,16 @@ fn draw(numbers: Numbers, canvas: &mut Canvas) -> String {
 
     let closest = ray.origin + middle * unit;
     chart.dots(canvas, [sphere.center, closest], Role::Hit);
-    chart.mark(canvas, closest, "m", Role::Hit);
     chart.mark(canvas, (sphere.center + closest) / 2.0, "l", Role::Hit);
+    // The dots have covered it.
+    chart.mark(canvas, sphere.center, "+ c", Role::Sphere);
+    chart.mark(canvas, closest, "m", Role::Hit);
     for (t, name) in found.iter().flatten().zip(["* t1", "* t2"]) {
         chart.mark(canvas, ray.at(*t), name, Role::Hit);
     }
     for t in found.iter().flatten() {
-        chart.mark(canvas, (closest + ray.at(*t)) / 2.0, "dt", Role::Hit);
+        let middle = (closest + ray.at(*t)) / 2.0;
+        chart.mark_beside(canvas, (middle, closest - sphere.center), "dt", Role::Hit);
     }
 
     let verdict = match found {

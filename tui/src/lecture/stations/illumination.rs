@@ -94,10 +94,13 @@ fn lit(scene: &Scene, ray: &Ray, lights: &[Light]) -> String {
             (true, true) => "a sphere is in the way: shadow",
             (true, false) => "nothing is in the way: lit",
         };
-        let (way, dot) = (coordinates(to_light), decimals(cosine));
-        of_lights += &format!("light {number}: l ({way})\n  n.l = {dot}\n  {verdict}\n");
+        let color = light.color.to_linear();
+        let (way, dot, bright) =
+            (coordinates(to_light), decimals(cosine), decimals(luminance(color)));
+        of_lights +=
+            &format!("light {number}: l ({way})\n  n.l = {dot}  light {bright}\n  {verdict}\n");
         if !is_dark {
-            received += cosine * light.color.to_linear();
+            received += cosine * color;
         }
     }
     let index = hit.sphere as usize;

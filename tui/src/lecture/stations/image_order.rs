@@ -12,7 +12,7 @@ pub(super) const STATION: Station = Station {
     topic: "image order",
     words: [
         "The outer loop is over pixels: its viewing ray is tested against every sphere,",
-        "the nearest hit is illuminated and stored. Every pixel is written just once.",
+        "the nearest hit is illuminated and stored. No pixel is written twice.",
     ],
     arrows: "right, left: a pixel on, back   up, down: a row",
     sources: &[
@@ -56,9 +56,9 @@ illuminate, store:
 
 pixels so far {:>6}
 tests         {tests:>6}
-writes        {:>6}",
+writes (hits) {:>6}",
         done + 1,
-        hits.len()
+        hits.iter().flatten().count()
     )
 }
 

@@ -3,7 +3,7 @@
 use crate::lecture::canvas::{Canvas, Role, letter};
 use crate::lecture::few::{COUNT, Few};
 use crate::lecture::pixels::{Pixel, Pixels};
-use crate::lecture::station::{Knob, Numbers, Source, Station};
+use crate::lecture::station::{Knob, Numbers, Source, Station, number};
 use crate::structure::object_order::Counts;
 
 pub(super) const STATION: Station = Station {
@@ -58,15 +58,15 @@ fn draw([done, reversed]: Numbers, canvas: &mut Canvas) -> String {
             rows += &row(&name.to_string(), new);
             last = all;
         } else {
-            rows += &format!("{name}       waits, at z = {}\n", sphere.center.z);
+            rows += &format!("{name}       waits, at z = {}\n", number(sphere.center.z));
         }
     }
     let Counts { tests, writes } = counts;
     rows += &row("all", [tests, writes.stored, writes.overwritten]);
     let order = if reversed {
-        "From near to far: little is\nwritten twice."
+        "From near to far: little or\nnothing is written twice."
     } else {
-        "From far to near: much is\noverwritten."
+        "From far to near: some is\noverwritten."
     };
     format!(
         "\

@@ -15,26 +15,39 @@ pub(super) const STATION: Station = Station {
     ],
     arrows: "left, right: t   up, down: turn d",
     sources: &[Source { file: "kernel/src/geometry/ray.rs", symbols: &["Ray", "at"] }],
-    knobs: [Knob::within(10, [1, 0], [-12, 24]), Knob::around(20, [0, 5], 360)],
+    knobs: [Knob::within(10, [1, 0], [-12, 16]), Knob::around(20, [0, 5], 360)],
     text: 36,
     draw,
 };
 
-const ORIGIN: Vec3 = Vec3::new(-2.0, -1.0, 0.0);
+const ORIGIN: Vec3 = Vec3::new(1.0, 0.5, 0.0);
+/// So short that every point that has a name is seen, wherever d points.
+const LENGTH: f32 = 0.8;
 
 /// t in quarters, and degrees from x to d.
 fn draw([quarters, degrees]: Numbers, canvas: &mut Canvas) -> String {
-    let ray = Ray::new(ORIGIN, 1.5 * at_degrees(degrees));
+    let ray = Ray::new(ORIGIN, LENGTH * at_degrees(degrees));
     let t = quarters as f32 / 4.0;
     let point = ray.at(t);
-    let chart = Chart::beside(canvas, STATION.text, [-5.0, 6.0], [-4.0, 4.0]);
+    // There is more room at the right, for names.
+    let chart = Chart::beside(canvas, STATION.text, [-2.6, 5.8], [-3.1, 4.1]);
     chart.behind(canvas, ray.origin, ray.direction);
     chart.half_line(canvas, ray.origin, ray.direction, Role::Ray);
     for whole in 1..5_u8 {
         chart.mark(canvas, ray.at(f32::from(whole)), &whole.to_string(), Role::Ray);
     }
     chart.mark(canvas, ray.origin, "o p", Role::Ray);
-    chart.mark(canvas, point, "* r(t)", Role::Hit);
+    chart.mark(canvas, point, "*", Role::Hit);
+    // The name stands where neither line nor numbers go on.
+    let d = ray.direction;
+    let side = if d.x.abs() <= d.y.abs() {
+        Vec3::X
+    } else if d.x * d.y < 0.0 {
+        Vec3::Y
+    } else {
+        -Vec3::Y
+    };
+    chart.mark_beside(canvas, (point, side), "r(t)", Role::Hit);
 
     let (verdict, role) = if ray.t_min <= t && t <= ray.t_max {
         ("r(t) is on the ray", Role::Hit)

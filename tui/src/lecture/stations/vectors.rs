@@ -29,7 +29,7 @@ const A: Vec3 = Vec3::new(3.0, 1.0, 0.0);
 fn draw([degrees, halves]: Numbers, canvas: &mut Canvas) -> String {
     let b = halves as f32 / 2.0 * at_degrees(degrees);
     let (sum, along) = (A + b, A.dot(b) / A.dot(A) * A);
-    let chart = Chart::beside(canvas, STATION.text, [-3.4, 6.4], [-3.2, 4.2]);
+    let chart = Chart::beside(canvas, STATION.text, [-3.4, 6.9], [-3.2, 4.2]);
     let zero = Vec3::ZERO;
     chart.dots(canvas, [A, sum], Role::Faint);
     chart.dots(canvas, [b, sum], Role::Faint);
@@ -38,13 +38,15 @@ fn draw([degrees, halves]: Numbers, canvas: &mut Canvas) -> String {
     chart.line(canvas, [zero, b], Role::Hit);
     for (point, text, role) in [
         (along, "*", Role::Sphere),
-        (sum, "a+b", Role::Faint),
         (A, "> a", Role::Ray),
         (b, "> b", Role::Hit),
         (zero, "0", Role::Plain),
     ] {
         chart.mark(canvas, point, text, role);
     }
+    // A short b leads to beside a, whose name it must not cover.
+    let side = if b.y < 0.0 { -Vec3::Y } else { Vec3::Y };
+    chart.mark_beside(canvas, (sum, side), "a+b", Role::Faint);
 
     let cosine = A.dot(b) / (A.length() * b.length());
     let degrees = cosine.clamp(-1.0, 1.0).acos().to_degrees();
