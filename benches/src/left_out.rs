@@ -24,7 +24,12 @@ impl LeftOut {
     /// What the page lacks; `None` if it is complete.
     pub(crate) fn line(&self) -> Option<String> {
         let scenes = self.0.borrow();
-        let line = || format!("Left out, since an answer was wrong or measuring failed (stderr says why): {}.", scenes.join(", "));
+        let line = || {
+            format!(
+                "Left out, since an answer was wrong or measuring failed (stderr says why): {}.",
+                scenes.join(", ")
+            )
+        };
         (!scenes.is_empty()).then(line)
     }
 }
@@ -45,7 +50,8 @@ mod tests {
         assert_eq!((measure("one"), left_out.line()), (Some(3), None));
         let measured: Vec<_> = ["long lens", "shell"].into_iter().filter_map(measure).collect();
         assert_eq!(measured, [5]);
-        let line = "Left out, since an answer was wrong or measuring failed (stderr says why): long lens.";
+        let line =
+            "Left out, since an answer was wrong or measuring failed (stderr says why): long lens.";
         assert_eq!(left_out.line().as_deref(), Some(line));
     }
 }

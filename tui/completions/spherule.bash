@@ -41,7 +41,7 @@ _spherule() {
 
     case "${cmd}" in
         spherule)
-            opts="-h -V --size --samples --projection --eye --target --fov --orbit --order --format --columns --strict --topology --frame --frames --follow --radius --accuracy --charset --color --background --palette --cell-aspect --distance --show --color-by --range --legend --occlusion --edges --depth-cue --structure --threads --level --no-probe --lossless --fps --output --once --cast --png --pick --json --help --version trace tradeoff lecture cases judge scenes"
+            opts="-h -V --size --samples --projection --eye --target --fov --orbit --order --format --columns --strict --topology --follow --frame --frames --radius --accuracy --charset --color --background --palette --cell-aspect --distance --show --color-by --range --legend --occlusion --edges --depth-cue --structure --threads --level --no-probe --lossless --fps --output --once --cast --png --pick --json --help --version trace tradeoff lecture cases judge scenes"
             if [[ ${cur} == -* || ${COMP_CWORD} -eq 1 ]] ; then
                 COMPREPLY=( $(compgen -W "${opts}" -- "${cur}") )
                 local IFS=$'\n'

@@ -1,6 +1,6 @@
 # Print an optspec for argparse to handle cmd's options that are independent of any subcommand.
 function __fish_spherule_global_optspecs
-    string join \n size= samples= projection= eye= target= fov= orbit= order= format= columns= strict topology= frame= frames= follow radius= accuracy= charset= color= background= palette= cell-aspect= distance= show= color-by= range= legend occlusion edges depth-cue structure= threads= level= no-probe lossless fps= output= once cast= png= pick= json h/help V/version
+    string join \n size= samples= projection= eye= target= fov= orbit= order= format= columns= strict topology= follow frame= frames= radius= accuracy= charset= color= background= palette= cell-aspect= distance= show= color-by= range= legend occlusion edges depth-cue structure= threads= level= no-probe lossless fps= output= once cast= png= pick= json h/help V/version
 end
 
 function __fish_spherule_needs_command
@@ -24,7 +24,7 @@ function __fish_spherule_using_subcommand
     contains -- $cmd[1] $argv
 end
 
-complete -c spherule -n "__fish_spherule_needs_command" -l size -d 'Write one picture of this size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]' -r
+complete -c spherule -n "__fish_spherule_needs_command" -l size -d 'Size of a picture in cells, each 1 to 4096; the viewer does not open [default: 80x24; on a terminal all rows but the last]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l samples -d 'Rays a cell, 1 to 256; auto: more where they are needed' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l projection -d 'The projection, whatever the scene says' -r -f -a "perspective\t'Far things look smaller'
 parallel\t'They do not'"
@@ -56,7 +56,7 @@ complete -c spherule -n "__fish_spherule_needs_command" -l accuracy -d 'How far 
 geometric\t''
 stable\t''
 exact\t''"
-complete -c spherule -n "__fish_spherule_needs_command" -l charset -d 'Characters; auto: half with colour, else ascii' -r -f -a "auto\t'Half with colour, ascii without colour or Unicode'
+complete -c spherule -n "__fish_spherule_needs_command" -l charset -d 'Characters' -r -f -a "auto\t'Half with colour, ascii without colour or Unicode'
 ascii\t'Printable ASCII; in every font'
 half\t'Halves of a cell; in every font'
 quadrant\t'Quarters; in most fonts'
@@ -77,7 +77,7 @@ complete -c spherule -n "__fish_spherule_needs_command" -l distance -d 'How far 
 complete -c spherule -n "__fish_spherule_needs_command" -l show -d 'error: what the tier gets wrong against exact, cell by cell; split:TIER,TIER: two tiers side by side; table: what every tier costs and gets wrong' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l color-by -d 'What spheres are coloured by: scene, element, chain, residue, molecule, type, or a column of numbers [default: chain if there are several, else scene]' -r
 complete -c spherule -n "__fish_spherule_needs_command" -l range -d 'The numbers that get the darkest and the lightest colour; needs --color-by COLUMN [default: the least and the largest of the frames so far]' -r
-complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How spheres are searched' -r -f -a "auto\t'The one that takes the least time'
+complete -c spherule -n "__fish_spherule_needs_command" -l structure -d 'How spheres are searched' -r -f -a "auto\t'The one that is likely the fastest'
 brute\t'All spheres, from end to end'
 depth-list\t'The spheres by their depth, for rays that share an origin or a direction; other rays search all'
 bvh\t'A tree of boxes, built once'"
@@ -121,7 +121,7 @@ complete -c spherule -n "__fish_spherule_using_subcommand trace" -l accuracy -d 
 geometric\t''
 stable\t''
 exact\t''"
-complete -c spherule -n "__fish_spherule_using_subcommand trace" -l structure -d 'How spheres are searched' -r -f -a "auto\t'The one that takes the least time'
+complete -c spherule -n "__fish_spherule_using_subcommand trace" -l structure -d 'How spheres are searched' -r -f -a "auto\t'The one that is likely the fastest'
 brute\t'All spheres, from end to end'
 depth-list\t'The spheres by their depth, for rays that share an origin or a direction; other rays search all'
 bvh\t'A tree of boxes, built once'"
@@ -158,7 +158,7 @@ urdf\t'A robot whose parts are spheres'"
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l columns -d 'Columns of a table for x, y, z and perhaps the radius: names, or numbers from 1' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l topology -d 'The file that says what the particles of an .xtc are' -r
 complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l radius -d 'How large spheres are: van-der-waals, covalent, a number, or a column of numbers [default: as the scene says]' -r
-complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l structure -d 'How spheres are searched' -r -f -a "auto\t'The one that takes the least time'
+complete -c spherule -n "__fish_spherule_using_subcommand tradeoff" -l structure -d 'How spheres are searched' -r -f -a "auto\t'The one that is likely the fastest'
 brute\t'All spheres, from end to end'
 depth-list\t'The spheres by their depth, for rays that share an origin or a direction; other rays search all'
 bvh\t'A tree of boxes, built once'"

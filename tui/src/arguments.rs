@@ -83,7 +83,7 @@ pub struct PictureArguments {
     #[arg(long, value_name = "TIER", default_value = Tier::Exact.as_str())]
     #[arg(value_parser = tier())]
     pub accuracy: Tier,
-    /// Characters; auto: half with colour, else ascii
+    /// Characters
     ///
     /// auto stays with what every font has, and with ascii where the locale has no Unicode (LANG=C). Finer sets are chosen by name; in the viewer c goes through all of them.
     /// Quadrants and braille are in most fonts, sextants and octants in Unifont and Cascadia Code; kitty, foot,
@@ -158,7 +158,7 @@ pub struct PictureArguments {
 pub struct ComputingArguments {
     /// How spheres are searched
     #[arg(long, value_name = "HOW", default_value = "auto")]
-    #[arg(value_parser = auto_or::<Structure>("The one that takes the least time"))]
+    #[arg(value_parser = auto_or::<Structure>("The one that is likely the fastest"))]
     pub structure: Auto<Structure>,
     /// Threads, 1 to 1024 [default: one a core, or as many as the system gives]
     #[arg(long, value_name = "N")]

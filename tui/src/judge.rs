@@ -155,7 +155,7 @@ fn read_families(families: &mut Array, from: u64, count: usize) -> Result<Vec<u8
             let (row, number) = (from + place as u64, numbers[place]);
             let last = FAMILIES.len() - 1;
             let what =
-                format!("row {row}: no family has the number {number}; they are 0 to {last}");
+                format!("row {row}: no family has the number {number}; numbers are 0 to {last}");
             Err(families.wrong(&what))
         }
     }

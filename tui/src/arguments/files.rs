@@ -21,9 +21,6 @@ pub struct FileArguments {
     /// Write the pictures of frames A to B - 1, from 0; without B, up to the last; N is 0..N
     #[arg(long, value_name = "A..B", value_parser = range, allow_negative_numbers = true)]
     pub frames: Option<Range<usize>>,
-    /// Wait for frames that are still being written
-    #[arg(long)]
-    pub follow: bool,
     /// What was meant by a name that is no scene's.
     #[arg(skip)]
     pub(super) meant: Option<String>,
@@ -47,11 +44,10 @@ impl FileArguments {
     /// [`Error::Input`] if there is no such scene or frame, or it cannot be read.
     pub fn open(&self, name: &FileName) -> Result<Subject, Error> {
         let wrong = |error: ReadError| Error::Input(error.to_string());
-        let reading = Reading { follow: self.follow, ..self.reading.clone() };
         let one = |frame: usize| frame..frame.saturating_add(1);
         let asked = self.frames.clone().unwrap_or(self.frame.map_or(0..usize::MAX, one));
         let first = asked.start;
-        let opened = open(name, &reading).map_err(|error| {
+        let opened = open(name, &self.reading).map_err(|error| {
             let meant = self.meant.as_ref().map_or_else(String::new, |meant| format!("; {meant}"));
             Error::Input(format!("{error}{meant}"))
         })?;

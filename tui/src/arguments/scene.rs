@@ -19,7 +19,7 @@ pub struct SceneArguments {
     /// A built-in scene, a file, or - for standard input; --format lists the formats that are told by content
     #[arg(value_name = "SCENE", default_value = DEFAULT)]
     pub name: FileName,
-    /// Write one picture of this size in cells, each 1 to 4096 [default: 80x24; on a terminal all rows but the last]
+    /// Size of a picture in cells, each 1 to 4096; the viewer does not open [default: 80x24; on a terminal all rows but the last]
     #[arg(long, value_name = "COLSxROWS", value_parser = size)]
     pub size: Option<(u16, u16)>,
     /// Rays a cell, 1 to 256; auto: more where they are needed

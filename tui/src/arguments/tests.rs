@@ -48,6 +48,8 @@ fn every_option_is_read() {
     assert_eq!(arguments.color, ColorChoice::Ansi256);
     assert_eq!(arguments.scene.projection, Some(LensKind::Parallel));
     assert_eq!(arguments.scene.file.reading.format, Some(crate::scene::format::Format::Xyz));
+    assert!(!arguments.scene.file.reading.follow);
+    assert!(picture("a.xyz --follow").scene.file.reading.follow);
     assert_eq!(arguments.cell_aspect, Some(0.75));
     assert_eq!(arguments.background, Some(Srgb([0xff, 0xee, 0xdd])));
     assert_eq!(picture("--background FFeedd").background, arguments.background);
@@ -254,8 +256,10 @@ fn the_help_says_what_auto_chooses() {
     let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
     for what in [
         "auto: Half with colour, ascii without colour or Unicode",
-        "auto: The one that takes the least time",
+        "auto: The one that is likely the fastest",
         "auto: On if there are chains",
+        "--size <COLSxROWS> Size of a picture in cells, each 1 to 4096; the viewer does not open [",
+        "--charset <SET> Characters auto stays with what every font has,",
     ] {
         assert!(help.contains(what), "{what}: {help}");
     }

@@ -30,8 +30,8 @@ pub struct Reading {
     /// The file that says what the particles of an .xtc are
     #[arg(long, value_name = "FILE")]
     pub topology: Option<FileName>,
-    /// Whether more may be written to the file.
-    #[arg(skip)]
+    /// Wait for frames that are still being written
+    #[arg(long)]
     pub follow: bool,
 }
 

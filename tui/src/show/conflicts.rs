@@ -29,10 +29,12 @@ pub(super) fn refuse(arguments: &PictureArguments, is_terminal: bool) -> Result<
             "--png writes a file; without it --output writes pixels".to_owned(),
         ));
     }
-    if crowd.legend
-        && let Some(other) = first(&[show, pixels])
-    {
-        return Err(Error::Input(format!("--legend cannot be used with {other}")));
+    if crowd.legend && show.1 {
+        let what = "--legend cannot be written with --show; the viewer takes both";
+        return Err(Error::Input(what.to_owned()));
+    }
+    if crowd.legend && pixels.1 {
+        return Err(Error::Input("--legend cannot be drawn in pixels (--output)".to_owned()));
     }
     Ok(())
 }

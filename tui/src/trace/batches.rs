@@ -176,6 +176,8 @@ mod tests {
         };
         assert_eq!(ran(&[]), [Brute]);
         assert_eq!(ran(&rays(240, 0..0)), [Brute]);
+        // 256 rays share an origin, but only four groups do, the last in part.
+        assert_eq!(ran(&rays(326, 0..70)), [Brute]);
         assert_eq!(ran(&rays(2000, 0..0)), [DepthList]);
         assert_eq!(ran(&rays(2000, 0..100)), [DepthList, Brute]);
         assert_eq!(ran(&rays(2000, 0..2000)), [Brute]);

@@ -8,9 +8,9 @@ pub(super) struct Hand {
 
 #[derive(Clone, Copy, Debug)]
 struct Hold {
-    /// Column and row of the press, or of the last movement since.
+    /// Column and row of the press, or of the last movement.
     place: (u16, u16),
-    /// Whether the mouse has moved since the press.
+    /// Whether the mouse has moved since the press, or moves without one.
     moved: bool,
 }
 
@@ -20,7 +20,8 @@ impl Hand {
         self.hold = Some(Hold { place, moved: false });
     }
 
-    /// Takes note of a movement; returns how many cells it goes to the right and down, zero without a press.
+    /// Takes note of a movement; returns how many cells it goes to the right and down: zero for the first
+    /// movement without a press, from which the next one counts.
     pub(super) fn led_to(&mut self, place: (u16, u16)) -> [f32; 2] {
         let Hold { place: from, moved } = self.hold.unwrap_or(Hold { place, moved: true });
         self.hold = Some(Hold { place, moved: moved || from != place });
@@ -57,6 +58,9 @@ mod tests {
     #[test]
     fn what_is_led_without_a_grab_is_no_click() {
         let mut hand = Hand::default();
+        assert_eq!(hand.led_to((3, 4)), [0.0, 0.0]);
+        assert_eq!(hand.led_to((5, 3)), [2.0, -1.0]);
+        assert!(!hand.release((5, 3)));
         assert_eq!(hand.led_to((3, 4)), [0.0, 0.0]);
         assert!(!hand.release((3, 4)));
     }

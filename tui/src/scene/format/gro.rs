@@ -100,6 +100,6 @@ fn width_of(line: &Line<'_>) -> Result<usize, ReadError> {
         (Some(one), Some(two), Some(three)) if three - two == two - one && two - one < 32 => {
             Ok(two - one)
         }
-        _ => Err(line.error(COORDINATES, "the line has no three coordinates of one width")),
+        _ => Err(line.error(COORDINATES, "the line does not have three coordinates of one width")),
     }
 }

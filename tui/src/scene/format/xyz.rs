@@ -17,11 +17,12 @@ mod properties;
 
 use super::Context;
 use super::stated::Stated;
-use super::words::Words;
+use super::words::{Words, excerpt};
 use crate::color::Srgb;
 use crate::scene::Scene;
 use crate::scene::attributes::NumberColumn;
 use crate::scene::input::{Input, Line};
+use crate::scene::number::number;
 use crate::scene::particles::Particles;
 use crate::scene::read_error::ReadError;
 use crate::scene::symbols::Symbols;
@@ -150,7 +151,10 @@ fn atom_of_properties(
             Kind::Name(naming) => particles.naming(naming).push(words.expect(name)?.bytes),
             Kind::Number => {
                 let word = words.expect(name)?;
-                let value = truth(word.bytes).map_or_else(|| word.number(name), Ok)?;
+                let value = truth(word.bytes).or_else(|| number(word.bytes)).ok_or_else(|| {
+                    let value = excerpt(word.bytes);
+                    word.error(format!("{name} is {value}, which is neither a number nor T or F"))
+                })?;
                 particles.columns[column].values.push(value as f32);
                 column += 1;
             }

@@ -40,6 +40,10 @@ fn a_count_that_lies() {
     for end in ["", "   1 1 1", "1000.000001000.00000-100.00000", "1e3 1D3 1"] {
         assert_eq!(good(gro(end)).spheres().len(), 1, "{end}");
     }
+    assert_eq!(
+        error(gro("   1 1 1").replace("  1.679", "   1.679")),
+        "f:3:21: the line does not have three coordinates of one width"
+    );
 }
 
 #[test]

@@ -106,5 +106,6 @@ fn truths_are_told_in_any_case() {
     let atoms: String = words.iter().map(|word| format!("C 0 0 0 {word}\n")).collect();
     let text = format!("{}\nProperties=species:S:1:pos:R:3:fixed:L:1\n{atoms}", words.len());
     assert_eq!(numbers(&good(text), "fixed"), Some([[1.0; 5], [0.0; 5]].concat()));
-    wrong("1\nProperties=pos:R:3:fixed:L:1\n0 0 0 yes\n", "which is not a number");
+    let message = error("1\nProperties=pos:R:3:fixed:L:1\n0 0 0 yes\n");
+    assert_eq!(message, "f:3:7: fixed is \"yes\", which is neither a number nor T or F");
 }
