@@ -36,7 +36,7 @@ fn object_order_says_how_much_is_overwritten() {
     let overwritten = |reversed| {
         let text = text(named("object-order"), [5, reversed]);
         let all = text.split("all ").nth(1).expect("a sum");
-        let numbers = all.split_whitespace().take(3).map(|word| word.parse::<u64>());
+        let numbers = all.split_whitespace().take(3).map(str::parse::<u64>);
         let [_, writes, overwritten] =
             numbers.map(|number| number.expect("a count")).collect::<Vec<_>>()[..]
         else {
