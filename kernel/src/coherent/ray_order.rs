@@ -16,16 +16,16 @@
 //!   by). (Any hits of rays without an end ran at 0.74 to 0.9 of the speed.)
 //!
 //! A key is a cell of a grid, on a Z curve (Morton 1966). Rays are in order already if most have a neighbour in their own cell.
-//! For closest hits in a near tree, and for all hits of two cameras by turns, some groups are tried first, each of rays that sorting
-//! would bring together. Unless most of the groups go through, at little cost, streams are faster (60,000 spheres in clusters, a shuffled
+//! For closest hits in a near tree, and for all hits of two cameras by turns, eight groups are tried first, each of rays that sorting would
+//! bring together. Unless most of the groups go through, at little cost, streams are faster (60,000 spheres in clusters, a shuffled
 //! camera: sorted, 0.7 of the speed). Other any hits gain in any case. So do two cameras that are shuffled: among seventeen scenes,
-//! sorted, 1.3 of the speed in the median; a million spheres have the least, 0.81 for any hit.
+//! sorted, 1.3 of the speed in the median; any hits among a million spheres have the least, 0.81.
 //!
 //! Making keys takes 5 ns a ray, sorting them 10, and taking rays and writing answers in that order 20. The speed in multiples of
 //! that of the same call unsorted, 65,536 rays, AVX-512, closest and any: a shuffled camera 1.9 and 1.9 among 10,000 spheres, 3.1 and
 //! 2.1 among nested ones, 1.1 and 1.2 among a million; a beam 1.9 and 2.0, 3.5 and 2.6, 1.2 and 1.4; diffuse rays among a million 1.4
-//! and 1. Slower are closest hits of rays all around from a point among a million, 0.89 to 0.95, any hits of two shuffled cameras there,
-//! 0.81, and calls whose trial is in vain, 0.93 to 0.97.
+//! and 1. Slower are closest hits of rays all around from a point among a million, 0.89 to 0.95, and calls whose trial is in vain, 0.93
+//! to 0.97.
 
 mod grid;
 mod keys;
@@ -36,9 +36,9 @@ use crate::geometry::ray::Ray;
 use crate::numeric::radix_sort::radix_sort;
 use glam::Vec3;
 use grid::{Grid, Space};
-use keys::{BITS, SecondGrid, is_of_second};
+use keys::{BITS, is_of_second};
 
-pub(crate) use keys::{MOST, RayKeys};
+pub(crate) use keys::{MOST, RayKeys, SecondGrid};
 
 /// The fewest rays that gain by groups, and by starting near each other. (Sorted, any hits of 16,384 rays ran at 1.2 to 2.1 of the
 /// speed for shuffled cameras and beams among nested spheres and 10,000, but at 0.5 to 0.9 in chains, 0.7 to 0.9 along an axis and
@@ -63,9 +63,8 @@ const ONE_POINT: f32 = 1.0 / (1 << 20) as f32;
 /// Two viewpoints are apart if they are so far from each other, as a share of the scene's size: packets with rays of a stereoscope's two
 /// eyes go together as they are. (A fiftieth apart, any hits of a sheet ran at 0.77 of the speed, told apart.)
 const APART: f32 = 1.0 / 8.0;
-/// The golden section, as a share of [`MOST`].
-const GOLDEN: usize = 40_503;
-/// How many rays a group on trial has, and how many the cell that they are from: 2^6.
+/// How many groups are tried, how many rays each has, and how many the cell that they are from: 2^6.
+pub(crate) const GROUPS_TRIED: usize = 8;
 pub(crate) const RAYS_OF_A_GROUP: usize = 64;
 const CROWD: u32 = 6;
 
@@ -133,7 +132,7 @@ impl RayKeys {
         let keys = match viewpoints {
             None => {
                 let grid = grid.laid(space, some.iter(), most);
-                Self { space, grid, second: None, are_near: false }
+                Self { space, grid, second: None, are_by_turns: false }
             }
             Some(viewpoints) => {
                 let [grid, second] = [false, true].map(|second| {
@@ -142,7 +141,7 @@ impl RayKeys {
                     Grid::along_mean(of_point.clone(), gain.radius).laid(space, of_point, most)
                 });
                 let second = Some(SecondGrid { viewpoints, grid: second });
-                Self { space, grid, second, are_near: false }
+                Self { space, grid, second, are_by_turns: false }
             }
         };
 
@@ -159,21 +158,14 @@ impl RayKeys {
         }
         let [is_next, is_near] = [next, near].map(|count| 4 * count >= 3 * LOOKED_AT);
         let is_in_order = if keys.second.is_some() { is_next } else { is_near };
-        (!is_in_order).then_some(Self { are_near: is_near, ..keys })
+        (!is_in_order).then_some(Self { are_by_turns: is_near, ..keys })
     }
 
-    /// Returns whether groups are to be tried before all rays are sorted: those of two viewpoints by turns, and closest hits in a near
-    /// tree. (If those of one viewpoint are tried in a far tree, too, few pass: among a million spheres rays all around from a point run
-    /// at 1.0 of the speed unsorted, instead of 0.92, but a beam at 1.0, instead of 1.35, and rays to a light at 0.7 to 1.0, instead of
-    /// 1.1 to 1.3.)
+    /// Returns whether groups of cells are to be tried before all rays are sorted: those of one viewpoint, for closest hits in a near tree.
+    /// (If they are tried in a far tree, too, few pass: among a million spheres rays all around from a point run at 1.0 of the speed
+    /// unsorted, instead of 0.92, but a beam at 1.0, instead of 1.35, and rays to a light at 0.7 to 1.0, instead of 1.1 to 1.3.)
     pub(crate) fn needs_a_trial(&self, gain: GainByOrder) -> bool {
-        let is_of_one = self.second.is_none() && self.space != Space::Start;
-        self.are_by_turns() || (is_of_one && !gain.is_any && !gain.is_far)
-    }
-
-    /// Returns whether rays of two viewpoints take turns of a few rays.
-    pub(crate) fn are_by_turns(&self) -> bool {
-        self.second.is_some() && self.are_near
+        self.second.is_none() && !gain.is_any && !gain.is_far && self.space != Space::Start
     }
 }
 
@@ -188,38 +180,59 @@ pub(crate) fn sort(places: &mut [u32], others: &mut [u32]) {
     radix_sort(places, others, BITS / 8, |place| place >> BITS);
 }
 
-/// Writes the numbers of the rays of some cells into `groups`: rays that would come one after the other if all were sorted. Returns
-/// how many are in each group, for at most 255 groups. The cells are those of rays equally far from each other in the call, moved by parts
-/// of that distance if they `scatter`: else all lie at one place of a picture's lines, many at its rim. (The limits for groups of one
-/// viewpoint were found with eight cells that do not scatter. Of two in one cell the first stays empty.)
+/// Writes rays of some cells into `groups`: rays that would come one after the other if all were sorted. Returns how many are in
+/// each group.
 #[inline(never)]
-pub(crate) fn gather_some<const GROUPS: usize>(
+pub(crate) fn gather_some(
+    rays: &ManyRays<'_>,
     places: &[u32],
-    groups: &mut [[u32; RAYS_OF_A_GROUP]],
-    scatter: bool,
-) -> [usize; GROUPS] {
+    groups: &mut [[Ray; RAYS_OF_A_GROUP]; GROUPS_TRIED],
+) -> [usize; GROUPS_TRIED] {
     /// The most cells: the number of 2^16 rays, the most that there are, has 17 bits.
     const CELLS: usize = (2 * MOST) >> CROWD;
-    const NONE: u8 = u8::MAX;
+    const NONE: u8 = GROUPS_TRIED as u8;
     let least = (places.len() | 1).ilog2() + 1;
     let bits = BITS + (BITS + CROWD).saturating_sub(least).min(BITS - 1);
     let mut group_of = [NONE; CELLS];
-    let step = places.len() / groups.len().max(1);
-    for number in 0..groups.len() {
-        let part = if scatter { GOLDEN * (number + 1) % MOST } else { 0 };
-        let shift = (step * part) >> BITS;
-        let place = places.get(step * number + shift).map_or(0, |place| *place);
+    for number in 0..GROUPS_TRIED {
+        let place = places.get(places.len() / GROUPS_TRIED * number).map_or(0, |place| *place);
         group_of[(place >> bits) as usize % CELLS] = number as u8;
     }
-    let mut counts = [0; GROUPS];
+    let mut counts = [0; GROUPS_TRIED];
     for place in places {
-        let number = group_of[(place >> bits) as usize % CELLS] as usize;
-        if let Some(group) = groups.get_mut(number)
-            && let Some(count) = counts.get_mut(number)
+        let number = group_of[(place >> bits) as usize % CELLS];
+        if number != NONE
+            && let Some(group) = groups.get_mut(number as usize)
+            && let Some(count) = counts.get_mut(number as usize)
             && let Some(free) = group.get_mut(*count)
+            && let Some(ray) = rays.ray(number_of(*place))
         {
-            *free = *place;
+            *free = ray;
             *count += 1;
+        }
+    }
+    counts
+}
+
+/// Writes rays of two viewpoints that take turns into `groups`: each of rays of one viewpoint that follow each other. Returns how many
+/// are in each group. (These are of a line, rather than of a cell; but no keys are made for them.)
+#[inline(never)]
+pub(crate) fn gather_turns(
+    rays: &ManyRays<'_>,
+    second: &SecondGrid,
+    groups: &mut [[Ray; RAYS_OF_A_GROUP]; GROUPS_TRIED],
+) -> [usize; GROUPS_TRIED] {
+    let mut counts = [0; GROUPS_TRIED];
+    for (number, (group, count)) in groups.iter_mut().zip(&mut counts).enumerate() {
+        let from = rays.count() / GROUPS_TRIED * number;
+        for place in from..from + AFTER * RAYS_OF_A_GROUP {
+            if let Some(ray) = rays.ray(place)
+                && is_of_second(second.viewpoints, &ray) == (number % 2 == 1)
+                && let Some(free) = group.get_mut(*count)
+            {
+                *free = ray;
+                *count += 1;
+            }
         }
     }
     counts

@@ -4,7 +4,8 @@ use super::window::PACKETS;
 use crate::Accuracy;
 use crate::coherent::learnt::Learnt;
 use crate::coherent::ray_order::{
-    GainByOrder, MOST, RAYS_OF_A_GROUP, RayKeys, gather_some, number_of, sort,
+    GROUPS_TRIED, GainByOrder, MOST, RAYS_OF_A_GROUP, RayKeys, SecondGrid, gather_some,
+    gather_turns, number_of, sort,
 };
 use crate::dispatch::Level;
 use crate::geometry::many::ManyRays;
@@ -16,10 +17,6 @@ use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
 use glam::Vec3;
 
-/// How many groups are tried; and of two cameras by turns, where a group may meet much, or nothing. (Eight of those told too little: two
-/// cameras over chains, a shell or a million spheres ran sorted, at 0.56 to 0.8 of the speed.)
-const GROUPS_TRIED: usize = 8;
-const GROUPS_OF_TURNS: usize = 32;
 /// How many packets of the groups on trial may go by themselves: an eighth, and a quarter where the groups do little.
 const MOST_APART: usize = GROUPS_TRIED * RAYS_OF_A_GROUP / RayPacket::COUNT / 8;
 const MOST_APART_OF_LITTLE: usize = 2 * MOST_APART;
@@ -32,13 +29,13 @@ const MOST_EFFORT: [u64; 2] = [5, 4];
 /// 49,000.)
 const LITTLE_EFFORT: [u64; 2] = [9, 10];
 const EFFORT_OF_SORTING: u64 = 8;
-/// Groups of two cameras by turns may do at most three tenths, with so much for sorting a ray: unsorted, rays go as a stream, at 1.2 to
-/// 1.4 of the speed of ray by ray. But rays that meet many spheres each take longer by themselves than is counted: of these groups may do
-/// as much. (65,536 rays by turns, three levels, fourteen scenes: sorted, 1.3 to 2.4 of a stream's speed where this holds, elsewhere 0.6
-/// to 1.05.)
-const MOST_OF_TURNS: [u64; 2] = [3, 10];
-const SORTING_OF_TURNS: u64 = 4;
-const MEETS_MANY: u64 = 256;
+/// Groups of cameras that take turns, and their sorting, may do at most three quarters: unsorted, their rays go as a stream, at 1.2 to 1.4 of the speed of ray by ray. The
+/// groups on trial are of lines; those of cells do some three fifths as much. A third is added of what rays do that then go by themselves.
+/// (65,536 rays by turns, AVX2, seven scenes, four pairs of cameras: 1.1 to 3.6 of the speed where they are sorted, 0.93 to 1.06 where
+/// they are not. Without a trial 0.63 to 0.9 in chains, clusters and sheets, where a stream takes 60 ns a ray, and sorting 45.)
+const MOST_OF_TURNS: [u64; 2] = [3, 4];
+const OF_A_CELL: [u64; 2] = [3, 5];
+const PART_OF_APART: u64 = 3 * (GROUPS_TRIED * RAYS_OF_A_GROUP / RayPacket::COUNT) as u64;
 
 /// Answers rays from `from` on, as long as they gain by an order, and there is memory to sort them. Returns the number of the first
 /// that is not answered. Takes 8 bytes a ray, half a megabyte at most. (Streams in that order ran at 0.8 to 1.0 of the speed.)
@@ -65,12 +62,19 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
             break;
         }
         let Some((numbers, others)) = memory.split_at_mut_checked(part.count()) else { break };
+        let by_turns = keys.second.as_ref().filter(|_| keys.are_by_turns);
+        if let Some(second) = by_turns {
+            let tried = (&part, Tried::Turns(second));
+            if !groups_pay::<S, Q>(structure, tier, trace.level, tried, (packets, answered)) {
+                break;
+            }
+        }
         #[cfg(feature = "std")]
         crate::dispatch::compiled::write_keys(trace.level, &keys, &part, numbers);
         #[cfg(not(feature = "std"))]
         keys.write_keys::<wide::f32x16>((), &part, numbers);
-        if keys.needs_a_trial(gain) {
-            let tried = (&part, &*numbers, keys.are_by_turns());
+        if by_turns.is_none() && keys.needs_a_trial(gain) {
+            let tried = (&part, Tried::Cells(numbers));
             if !groups_pay::<S, Q>(structure, tier, trace.level, tried, (packets, answered)) {
                 break;
             }
@@ -94,79 +98,60 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     from
 }
 
+/// The rays of which groups are tried.
+enum Tried<'a> {
+    /// By their keys, rays of some cells.
+    Cells(&'a [u32]),
+    /// Rays of two viewpoints by turns.
+    Turns(&'a SecondGrid),
+}
+
 /// Whether most of a few groups go through together. Each is of rays that would come one after the other.
 #[inline(never)]
 fn groups_pay<S: Traverse + ?Sized, Q: LevelQuery>(
     structure: &S,
     tier: impl Accuracy,
     level: Level,
-    (rays, numbers, are_by_turns): (&ManyRays<'_>, &[u32], bool),
+    (rays, tried): (&ManyRays<'_>, Tried<'_>),
     (packets, answered): (&mut [RayPacket], &mut [Q::Packet<[f32; 16]>]),
 ) -> bool {
-    let mut groups = [[0; RAYS_OF_A_GROUP]; GROUPS_OF_TURNS];
-    let tried = if are_by_turns { GROUPS_OF_TURNS } else { GROUPS_TRIED };
-    let groups = groups.get_mut(..tried).unwrap_or_default();
-    let counts = gather_some::<GROUPS_OF_TURNS>(numbers, groups, are_by_turns);
-    let (mut apart, mut efforts, mut of_group) =
-        (0, Efforts::default(), [Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]);
-    for number in 0..tried {
-        // From all of the call in turn: its first rays are one part of a picture.
-        let place = number * 13 % tried;
-        let (Some(group), Some(&count)) = (groups.get(place), counts.get(place)) else { break };
-        let group = group.get(..count).unwrap_or(group);
-        rays.gather(group.iter().map(|place| number_of(*place)), &mut of_group);
-        let rays = ManyRays::Slice(of_group.get(..count).unwrap_or(&of_group));
+    let mut groups = [[Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]; GROUPS_TRIED];
+    let (counts, most_apart) = match tried {
+        Tried::Cells(numbers) => (gather_some(rays, numbers, &mut groups), MOST_APART_OF_LITTLE),
+        Tried::Turns(second) => (gather_turns(rays, second, &mut groups), usize::MAX),
+    };
+    let (mut apart, mut efforts, mut sorting) = (0, [0; 2], 0);
+    for (group, count) in groups.iter().zip(counts) {
+        let rays = group.get(..count).unwrap_or(group);
         // Each group is a call of its own, since after one in vain others would be passed over.
         let mut trial = Trace { learnt: Learnt::ON_TRIAL, ..Trace::new().at(level) };
+        let rays = ManyRays::Slice(rays);
         structure.many_in_packets::<Q>(tier, &mut trial, &rays, packets, answered);
-        apart += trial.learnt.apart[0];
-        efforts.add(trial.learnt.efforts.unwrap_or_default(), count);
-        // A group in vain takes several times as long as its rays by themselves: no more than two or three are tried. By turns, where
-        // groups may meet nothing, more are.
-        let is_in_vain = if are_by_turns {
-            number >= GROUPS_TRIED && !efforts.are_few_of_turns(number + 1)
-        } else {
-            apart > MOST_APART_OF_LITTLE
-        };
-        if is_in_vain {
+        let [of_group, _] = trial.learnt.apart;
+        apart += of_group;
+        let [did, by_rays] = trial.learnt.efforts.unwrap_or_default();
+        efforts = [efforts[0] + did, efforts[1] + by_rays];
+        sorting += EFFORT_OF_SORTING * count as u64;
+        // A group in vain takes several times as long as its rays by themselves: no more than two or three are tried. Of rays by turns all
+        // are, since more may go apart. (Any hits between 100,000 spheres: 10 packets of 32, and sorted they are 1.7 times as fast.)
+        if apart > most_apart {
             return false;
         }
     }
-    if are_by_turns { efforts.are_few_of_turns(tried) } else { efforts.are_few(apart) }
+    match tried {
+        Tried::Turns(_) => turns_pay(apart, efforts, sorting),
+        Tried::Cells(_) => {
+            is_within(LITTLE_EFFORT, [efforts[0] + sorting, efforts[1]])
+                || (apart <= MOST_APART && is_within(MOST_EFFORT, efforts))
+        }
+    }
 }
 
-/// What groups on trial did, what their rays would have done apart, and how many rays these are.
-#[derive(Clone, Copy, Debug, Default)]
-struct Efforts {
-    of_groups: u64,
-    by_rays: u64,
-    rays: u64,
-}
-
-impl Efforts {
-    fn add(&mut self, [of_group, by_rays]: [u64; 2], rays: usize) {
-        self.of_groups += of_group;
-        self.by_rays += by_rays;
-        self.rays += rays as u64;
-    }
-
-    /// Whether groups did little, or no more than their rays, while few packets went by themselves.
-    fn are_few(&self, packets_apart: usize) -> bool {
-        let sorted = self.of_groups + EFFORT_OF_SORTING * self.rays;
-        is_within(LITTLE_EFFORT, [sorted, self.by_rays])
-            || (packets_apart <= MOST_APART
-                && is_within(MOST_EFFORT, [self.of_groups, self.by_rays]))
-    }
-
-    /// The same for rays of two cameras by turns. After the first of the groups they may do half as much again: the next may do less.
-    fn are_few_of_turns(&self, tried: usize) -> bool {
-        let left = GROUPS_OF_TURNS.saturating_sub(tried) as u64;
-        let by_rays = self.by_rays + self.by_rays * left / (3 * GROUPS_OF_TURNS as u64 / 2);
-        let [of, parts] = MOST_OF_TURNS;
-        let sorted = self.of_groups + SORTING_OF_TURNS * self.rays * of / parts;
-        is_within(MOST_OF_TURNS, [sorted, by_rays])
-            || (by_rays >= MEETS_MANY * self.rays && is_within([1, 1], [self.of_groups, by_rays]))
-    }
+/// Whether rays of cameras by turns gain by being sorted, as groups of lines tell.
+fn turns_pay(packets_apart: usize, [did, by_rays]: [u64; 2], sorting: u64) -> bool {
+    let of_cells = OF_A_CELL[0] * did / OF_A_CELL[1];
+    let of_apart = by_rays * packets_apart as u64 / PART_OF_APART;
+    by_rays > 0 && is_within(MOST_OF_TURNS, [of_cells + sorting + of_apart, by_rays])
 }
 
 /// Whether what groups did is at most `of` / `parts` of what their rays would have done apart.

@@ -18,14 +18,14 @@ pub(crate) struct RayKeys {
     pub(super) space: Space,
     pub(super) grid: Grid,
     /// A grid for rays that start nearer to the second viewpoint.
-    pub(super) second: Option<SecondGrid>,
+    pub(crate) second: Option<SecondGrid>,
     /// Whether each ray has a neighbour a few rays after it.
-    pub(super) are_near: bool,
+    pub(crate) are_by_turns: bool,
 }
 
 /// Two viewpoints, and the grid of the rays from the second.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct SecondGrid {
+pub(crate) struct SecondGrid {
     pub(super) viewpoints: [Vec3; 2],
     pub(super) grid: Grid,
 }

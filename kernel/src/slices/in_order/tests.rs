@@ -135,42 +135,38 @@ fn cameras_that_take_turns_are_told_apart_where_it_pays() {
     }
 }
 
-/// What groups on trial were seen to do for each ray, what their rays would have done apart, and how fast the call was sorted, by a
-/// stream: 65,536 rays of two cameras by turns, AVX2.
+/// What groups on trial were seen to do, and how fast the call was sorted, by that unsorted: 65,536 rays of two cameras by turns, AVX2.
 #[test]
 fn trials_tell_where_cameras_by_turns_gain() {
-    for (of_groups, by_rays, speed) in [
-        // 10,000 spheres, closest and any; a million; snowflakes.
-        (10.1, 52.8, 1.58),
-        (9.3, 50.0, 1.61),
-        (71.3, 64.3, 0.65),
-        (44.2, 65.5, 0.77),
-        (4.0, 26.2, 1.36),
-        (2.7, 21.8, 1.41),
-        // 100,000 among which two cameras look, closest; a grid.
-        (38.1, 127.1, 0.73),
-        (9.2, 37.1, 1.26),
-        // Clusters, a shell, chains.
-        (21.0, 49.4, 0.8),
-        (20.9, 41.8, 0.62),
-        (17.7, 41.3, 0.74),
-        (15.6, 40.1, 0.72),
-        (15.2, 46.4, 0.8),
-        // Huge and tiny ones; radii spread over 10^6.
-        (110.0, 165.0, 0.84),
-        (45.9, 124.2, 0.92),
-        (10.4, 60.5, 1.69),
-        // Nested ones: each ray meets hundreds for its closest hit.
-        (450.0, 561.1, 1.95),
-        (30.5, 123.0, 2.07),
+    for (packets_apart, efforts, speed) in [
+        // 10,000 spheres from opposite sides, any and closest; from between them.
+        (1, [13_561, 23_408], 1.4),
+        (1, [13_893, 22_140], 1.4),
+        (1, [10_454, 40_050], 2.7),
+        // 100,000 from between them, any and closest; from opposite sides.
+        (10, [23_556, 51_051], 1.7),
+        (2, [32_254, 42_539], 1.8),
+        (5, [47_796, 36_097], 0.74),
+        // Chains, from between and from outside; the last by turns of three, any.
+        (1, [19_566, 22_694], 1.35),
+        (7, [20_831, 16_906], 0.74),
+        (14, [12_503, 18_458], 0.75),
+        // Clusters, and a sheet from outside and from within.
+        (5, [6873, 9345], 0.68),
+        (1, [2156, 6976], 0.83),
+        (1, [6397, 12_449], 1.29),
+        // Shells, closest and any.
+        (1, [119_309, 144_511], 2.2),
+        (5, [11_633, 35_803], 2.6),
     ] {
-        let [of_groups, by_rays] = [of_groups, by_rays].map(|each: f64| (2048.0 * each) as u64);
-        let efforts = super::Efforts { of_groups, by_rays, rays: 2048 };
-        assert_eq!(efforts.are_few_of_turns(super::GROUPS_OF_TURNS), speed > 1.0, "{efforts:?}");
+        let sorting = 4096;
+        assert_eq!(super::turns_pay(packets_apart, efforts, sorting), speed > 1.0, "{efforts:?}");
     }
+    assert!(!super::turns_pay(0, [0; 2], 0));
 }
 
-/// Shuffled, two cameras gain by being sorted whatever the spheres: as they come, neither groups nor streams find much in common.
+/// Shuffled, two cameras gain by being sorted whatever the spheres, so no groups are tried before: among small spheres, too, where a trial
+/// would leave them to a stream.
 #[test]
 fn two_cameras_that_are_shuffled_are_sorted() {
     let mut random = Random(113);
@@ -186,8 +182,7 @@ fn two_cameras_that_are_shuffled_are_sorted() {
         if is_second { Ray::new(-EYE, -along) } else { Ray::new(EYE, along) }
     });
     for tree in trees {
-        // Sorted, there is at least a group for every 64 rays, if groups are tried to the end.
-        let fits = works(&tree, &shuffled).map(|work| work.count(Kind::GroupFit));
-        assert!(fits.iter().all(|fits| *fits > 400), "{fits:?}");
+        let streams = works(&tree, &shuffled).map(|work| work.count(Kind::StreamNode));
+        assert_eq!(streams, [0; 2]);
     }
 }

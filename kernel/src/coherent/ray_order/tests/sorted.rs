@@ -110,13 +110,11 @@ fn widest(rays: &[Ray], coordinates: impl Fn(&Ray) -> Vec3) -> f32 {
     let order = RayKeys::of(&many, GAIN).expect("in no order");
     let mut places = vec![0; rays.len()];
     order.write_keys::<wide::f32x16>((), &many, &mut places);
-    let mut groups = [[0; RAYS_OF_A_GROUP]; 8];
+    let mut groups = [[Ray::new(Vec3::ZERO, Vec3::ZERO); RAYS_OF_A_GROUP]; GROUPS_TRIED];
+    gather_some(&many, &places, &mut groups);
     let mut widest = 0.0_f32;
-    let all =
-        [false, true].map(|scatter| (gather_some::<8>(&places, &mut groups, scatter), groups));
-    for (count, group) in all.iter().flat_map(|(counts, groups)| counts.iter().zip(groups)) {
-        let rays = group[..*count].iter().map(|place| &rays[number_of(*place)]);
-        let filled = rays.map(&coordinates).collect::<Vec<_>>();
+    for group in groups {
+        let filled = group.iter().filter(|ray| ray.is_live()).map(&coordinates).collect::<Vec<_>>();
         assert!(filled.len() > RAYS_OF_A_GROUP / 4, "{} rays", filled.len());
         for axis in 0..2 {
             let at = filled.iter().map(|place| place[axis]);
