@@ -18,8 +18,9 @@
 //! A key is a cell of a grid, on a Z curve (Morton 1966). Rays are in order already if most have a neighbour in their own cell.
 //! For closest hits in a near tree, and for all hits of two cameras by turns, eight groups are tried first, each of rays that sorting would
 //! bring together. Unless most of the groups go through, at little cost, streams are faster (60,000 spheres in clusters, a shuffled
-//! camera: sorted, 0.7 of the speed). Other any hits gain in any case. So do two cameras that are shuffled: among seventeen scenes,
-//! sorted, 1.3 of the speed in the median; any hits among a million spheres have the least, 0.81.
+//! camera: sorted, 0.7 of the speed). Other any hits gain in any case. Two cameras that are shuffled gain in most cases: four
+//! pairs among eight scenes ran at 0.6 to 3.3 of the speed with a trial, at 1.1 in the median, and at 0.77 or more of ray by ray; a pair
+//! among seventeen others, without a trial, at 0.81 to 2.4 of a stream, at 1.3 in the median (AVX2, a noisy machine).
 //!
 //! Making keys takes 5 ns a ray, sorting them 10, and taking rays and writing answers in that order 20. The speed in multiples of
 //! that of the same call unsorted, 65,536 rays, AVX-512, closest and any: a shuffled camera 1.9 and 1.9 among 10,000 spheres, 3.1 and
