@@ -1,5 +1,7 @@
 //! Many rays of a call: slices and columns are packed, traced and unpacked, some packets at a time, on the stack.
 
+#[cfg(feature = "std")]
+mod by_depth;
 #[cfg(feature = "alloc")]
 mod in_order;
 #[cfg(feature = "alloc")]
@@ -16,7 +18,7 @@ use crate::geometry::many_answers::ManyAnswers;
 use crate::geometry::ray_packet::RayPacket;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
-use window::PACKETS;
+use window::{PACKETS, answer_part};
 
 /// How many packets go first, if as many as are traced at a time are left after them: they tell whether groups pay, or a stream. (With 64,
 /// closest hits of rays sorted by direction and half of a camera, among a million spheres, ran at 0.65 to 0.98 of the speed of ray by ray;
@@ -110,6 +112,8 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     // The order of the rays is not looked at before this one.
     #[cfg(feature = "alloc")]
     let mut next_look = 0;
+    #[cfg(feature = "std")]
+    let mut next_depth_look = 0;
     // (No `chunks`: they divide by their length, and may panic where the compiler does not know it.)
     while from < count {
         let to = (from + packets_at_once * RayPacket::COUNT).min(count);
@@ -117,14 +121,33 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
         if from > 0 && structure.goes_one_by_one(trace, rays, from..to) {
             return one_by_one::<S, Q>(structure, tier, trace, (rays, from, to), &mut answers);
         }
-        let part = rays.part(from, to);
-        structure.many_in_packets::<Q>(tier, trace, &part, &mut packets, &mut answered);
         #[cfg(feature = "std")]
-        Q::write_at(trace.level, &mut answers, &answered, from, to);
-        #[cfg(not(feature = "std"))]
-        answers.write(&answered, from, to);
+        let is_counted = from >= next_depth_look
+            && count - from >= by_depth::FEWEST
+            && structure.may_gain_by_depth(trace);
+        #[cfg(feature = "std")]
+        if is_counted {
+            trace.learnt.count_work();
+        }
+        let all = (&mut answered[..], &mut answers);
+        answer_part::<S, Q>(structure, tier, trace, (rays, from, to), &mut packets, all);
+        #[cfg(feature = "std")]
+        let counted = to - from;
         from = to;
         packets_at_once = AT_ONCE;
+        #[cfg(feature = "std")]
+        if is_counted {
+            let work = (counted, trace.learnt.counted_work() / counted as f32);
+            let (rest, all) = ((rays, from, count), (&mut answered[..], &mut answers));
+            let before = from;
+            from = by_depth::answer::<S, Q>(structure, tier, trace, rest, work, &mut packets, all);
+            // Those after many of one point may be of another.
+            if from >= before + by_depth::FEWEST {
+                next_depth_look = from;
+                continue;
+            }
+            next_depth_look = from + MOST;
+        }
         #[cfg(feature = "alloc")]
         {
             if from >= next_look

@@ -83,6 +83,12 @@ pub trait Traverse {
         None
     }
 
+    /// Whether rays of one viewpoint may be faster in a depth list.
+    #[cfg(feature = "std")]
+    fn may_gain_by_depth(&self, _: &Trace<'_>) -> bool {
+        false
+    }
+
     /// How many of the next rays are better answered all at once than some at a time, from what the trace has learnt; `None` where it
     /// makes no difference.
     #[cfg(feature = "alloc")]
@@ -261,7 +267,7 @@ traverse!(Spheres<'_>, |spheres, trace| *spheres, linear::traverse = list(*spher
 traverse!(
     DepthList<'_>,
     |list, trace| list.spheres(),
-    list_source::traverse = depth_list(list, trace.scratch)
+    list_source::traverse = depth_list(list, (&mut *trace.scratch, &mut trace.learnt))
 );
 
 /// It answers in one lane, whatever the level.

@@ -30,7 +30,8 @@ pub struct Trace<'m> {
     pub scratch: &'m mut [f32],
     /// The caller's working memory for a tree's streams. If it is `None`, a call with feature `alloc` allocates memory where it gains
     /// by a stream, or by sorting rays: at most 4.5 MB. The trace keeps this memory for its next call; with `std`, the thread
-    /// keeps it when the trace is dropped. If the allocation fails, the call goes on without the memory.
+    /// keeps it when the trace is dropped. With `std`, a call may take 2.4 MB more, until it ends, to sort spheres for rays of one point. If
+    /// an allocation fails, the call goes on without the memory.
     pub stream: Option<StreamMemory<'m>>,
     /// What calls have allocated for streams.
     #[cfg(feature = "alloc")]

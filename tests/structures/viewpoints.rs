@@ -36,6 +36,33 @@ fn long_and_wide_lenses() {
     }
 }
 
+/// Rays of one point that run in all directions, in no order, so that no frustum holds a packet of them; among them some of other points,
+/// dead ones, and ends.
+#[test]
+fn all_around_a_point() {
+    let mut random = Random::new(88, 0);
+    for (_, spheres) in scenes::all() {
+        for eye in
+            [Vec3::new(0.01, 0.02, 0.03), Vec3::new(0.3, -0.4, 0.2), Vec3::new(1.5, 0.0, 0.0)]
+        {
+            let ray = |random: &mut Random| Ray::new(eye, scenes::unit(random));
+            let mut rays: Vec<_> = (0..600).map(|_| ray(&mut random)).collect();
+            assert_same(BOTH, &rays, &spheres);
+            end_at_answers(&mut random, &mut rays, &spheres);
+            for ray in rays.iter_mut().skip(100) {
+                match random.integer(0, 60) {
+                    0 => ray.origin += scenes::point(&mut random, 0.1),
+                    1 => ray.direction = Vec3::ZERO,
+                    2 => ray.t_min = -1.0,
+                    3 => ray.direction *= 1e30,
+                    _ => {}
+                }
+            }
+            assert_same_from(Viewpoint::Origin(eye), BOTH, &rays, &spheres);
+        }
+    }
+}
+
 /// Rays beside each other that are steep along one axis alone, and spheres that touch the outermost of them.
 #[test]
 fn steep_along_one_axis() {

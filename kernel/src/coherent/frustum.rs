@@ -139,6 +139,12 @@ impl Sides {
     pub(super) const NONE: Self =
         Self { along: 0, slope: [0.0; 4], offset: [0.0; 4], length: [0.0; 4] };
 
+    /// Planes that leave out nothing.
+    pub(super) const ALL: Self = Self {
+        offset: [f32::NEG_INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::INFINITY],
+        ..Self::NONE
+    };
+
     /// For the least and greatest slope, and the least and greatest offset, of each axis, all moved outward.
     #[inline(always)]
     pub(super) fn new(along: usize, slopes: [[f32; 2]; 2], offsets: [[f32; 2]; 2]) -> Self {

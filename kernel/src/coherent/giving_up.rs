@@ -24,6 +24,8 @@
 use super::box_sample::BoxSample;
 use super::effort::Effort;
 use super::packet_state::PacketState;
+#[cfg(feature = "std")]
+use crate::bvh::traverse::small_tree;
 use crate::bvh::tree::Bvh;
 use crate::lanes::{LaneMask, Lanes};
 use crate::query::Query;
@@ -248,6 +250,20 @@ impl Allowance {
                 allowance.least_apart() + allowance.roots_apart(&effort, states) + in_boxes
             },
         )
+    }
+}
+
+/// About what so many rays do by themselves that have entered so many boxes, as far as that is known without their hits.
+#[cfg(feature = "std")]
+#[inline(always)]
+pub(super) fn work_apart(bvh: &Bvh<'_>, rays: usize, boxes: u32) -> u64 {
+    let rays = rays as u64;
+    match small_tree::leaf_count(bvh) {
+        Some(leaves) => {
+            let each = RAY_OF_SMALL_TREE + LEAF_OF_SMALL_TREE * leaves + ROOTS_OF_SMALL_TREE;
+            rays * u64::from(each)
+        }
+        None => rays * u64::from(RAY + RAY_ROOTS) + u64::from(boxes) * u64::from(RAY_LEAF),
     }
 }
 

@@ -12,6 +12,7 @@ use crate::bvh::tree::Bvh;
 #[cfg(feature = "alloc")]
 use crate::coherence::Coherence;
 use crate::query::Query;
+use core::ops::Range;
 
 /// Closest hits and any hits learn separately, except where memory is short: there a trace that a firmware copies by a function is
 /// 900 bytes of flash.
@@ -25,7 +26,8 @@ pub(super) fn kind_of<Q: Query>() -> usize {
 
 /// What is learnt of rays as they come: which of them pay together.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Learnt {
+#[cfg_attr(not(feature = "std"), expect(unreachable_pub, reason = "a trait of levels names it"))]
+pub struct Learnt {
     pub(super) groups: [Patience; KINDS],
     pub(super) packets: [PacketPatience; KINDS],
     pub(super) sharing: [Sharing; KINDS],
@@ -35,6 +37,12 @@ pub(crate) struct Learnt {
     /// Of groups on trial: what they did, and what their rays would have done apart. `None` if they are not on trial.
     #[cfg(feature = "alloc")]
     pub(crate) efforts: Option<[u64; 2]>,
+    /// What rays have done by themselves, and in a depth list, since the caller set it to zero: in steps as of groups.
+    #[cfg(feature = "std")]
+    pub(crate) work: u64,
+    /// Of up to 64 packets those that a depth list has not answered, a bit each. `None` if it tests these against all spheres.
+    #[cfg(feature = "std")]
+    pub(crate) unanswered: Option<u64>,
 }
 
 impl Learnt {
@@ -47,6 +55,10 @@ impl Learnt {
         apart: [0; 2],
         #[cfg(feature = "alloc")]
         efforts: None,
+        #[cfg(feature = "std")]
+        work: 0,
+        #[cfg(feature = "std")]
+        unanswered: None,
     };
     /// Nothing, for groups on trial.
     #[cfg(feature = "alloc")]
@@ -58,6 +70,43 @@ impl Learnt {
         let (kind, groups) = (kind_of::<Q>(), packets.div_ceil(GROUP));
         self.groups[kind].begin(groups);
         self.packets[kind].begin(groups);
+    }
+
+    /// Counts the work of the next packets.
+    #[cfg(feature = "std")]
+    pub(crate) fn count_work(&mut self) {
+        (self.efforts, self.work) = (Some([0; 2]), 0);
+    }
+
+    /// Returns the work of these packets.
+    #[cfg(feature = "std")]
+    pub(crate) fn counted_work(&mut self) -> f32 {
+        let [of_groups, _] = self.efforts.take().unwrap_or_default();
+        (of_groups + self.work) as f32
+    }
+
+    /// Counts what rays did by themselves, or in a depth list.
+    #[inline(always)]
+    pub(super) fn add_work(&mut self, work: u64) {
+        #[cfg(feature = "std")]
+        {
+            self.work = self.work.wrapping_add(work);
+        }
+        let _ = work;
+    }
+
+    /// Returns whether packets that go too deep in a depth list are left to the caller; if so, notes those.
+    #[inline(always)]
+    pub(super) fn leaves(&mut self, packets: Range<usize>) -> bool {
+        #[cfg(feature = "std")]
+        if let Some(unanswered) = &mut self.unanswered {
+            for packet in packets {
+                *unanswered |= 1 << (packet % u64::BITS as usize);
+            }
+            return true;
+        }
+        let _ = packets;
+        false
     }
 
     /// Returns how many of the next `rays` a call should take at once, if some of them go by themselves and a stream of those may

@@ -1,12 +1,15 @@
 //! Packets of a common origin or direction, traced through spheres in the order of their depth.
 //!
 //! A thousand packets share a list of the spheres inside their frustum, some tens share a shorter one. Four packets go
-//! through it together, block by block, as packets go through the leaves of a tree (`tree_source.rs`).
+//! through it together, block by block, as packets go through the leaves of a tree (`tree_source.rs`). Packets that run different ways go
+//! alone, with no planes around them. They, too, end where the next sphere begins deeper than their hits; if that is far, they are tested
+//! against all spheres.
 
 use super::depth_list::DepthList;
 use super::effort::Effort;
 use super::fit::{Fit, greatest_of, spread_of};
-use super::frustum::Outline;
+use super::frustum::{Outline, Sides};
+use super::learnt::Learnt;
 use super::listed::Listed;
 use super::packet_group::{GROUP, meet_block};
 use super::packet_state::PacketState;
@@ -18,10 +21,11 @@ use crate::bvh::source::SphereSource;
 use crate::count::count;
 use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::{Sphere, Spheres};
-use crate::lanes::{LaneMask, Lanes};
+use crate::lanes::{LaneMask, Lanes, WIDTH};
 use crate::linear;
 use crate::numeric::rounding::most;
 use crate::query::Query;
+use core::ops::Range;
 
 /// How many packets share the larger list.
 const LARGE: usize = 1024;
@@ -32,37 +36,44 @@ const SHORT: usize = 64;
 /// The widest range of slopes that goes through a list together.
 const NARROW: f32 = 2.0;
 
+/// Packets that fit no frustum are tested against the nearest eighth of the spheres, and 128 at least; if a ray then goes on, against all. (A
+/// sphere takes twice as long in this order as in the list's.)
+const NEAREST: usize = 8;
+const LEAST_BLOCKS: usize = 8;
+/// After a packet in vain so many go without a try at most.
+const LONGEST_GAP: usize = 63;
+
 /// Answers every ray.
 #[inline(always)]
 pub(crate) fn traverse<L: Lanes, Q: Query>(
     tier: impl Accuracy,
     token: L::Token,
     list: &DepthList<'_>,
-    scratch: &mut [f32],
+    (scratch, learnt): (&mut [f32], &mut Learnt),
     rays: &[RayPacket<L::Array>],
     answers: &mut [Q::Packet<L::Array>],
 ) {
+    let count = rays.len().min(answers.len());
     let Some(view) = &list.view else {
-        return linear::traverse::<L, Q>(tier, token, list.spheres, rays, answers);
+        return test_all::<L, Q>(tier, token, list, learnt, (rays, 0..count), answers);
     };
     let (longer, shorter) = scratch.split_at_mut(scratch.len() / 2);
     let size = (list.scale.factor, list.extent, tier.spread());
-    let count = rays.len().min(answers.len());
-    let (mut from, mut unfit) = (0, 0);
+    // Packets from `unanswered` to `from` are to be tested against all spheres, in one run.
+    let (mut from, mut unanswered) = (0, 0);
+    let (mut gap, mut passed_over) = (0, 0);
     while from < count {
         let large = rays.get(from..count.min(from + LARGE)).unwrap_or_default();
         let survey = Survey::new::<L>(token, view, large, size);
-        let end = from + survey.packets;
-        if survey.packets == 0 {
-            from += 1;
-        }
-        if survey.packets > 0 || from == count {
-            // Packets that do not fit are tested against all spheres, in one run.
-            if let (Some(rays), Some(answers)) =
-                (rays.get(unfit..from), answers.get_mut(unfit..from))
-            {
-                linear::traverse::<L, Q>(tier, token, list.spheres, rays, answers);
+        let runs_together = survey.packets > 0;
+        let end = from + if runs_together { survey.packets } else { 1 };
+        if !runs_together {
+            passed_over += 1;
+            if passed_over <= gap || !view.is_shared_by::<L>(token, &rays[from]) {
+                from = end;
+                continue;
             }
+            passed_over = 0;
         }
         // Spheres that no bound sees are tested first: packets begin with these hits.
         if list.outside > 0
@@ -85,20 +96,45 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                     shorter_list = listed.inside::<L>(token, &survey, shorter).unwrap_or(listed);
                 }
             }
-            let source = ListSource { list, view, listed: &shorter_list };
+            let mut source = ListSource { list, view, listed: &shorter_list, work: 0 };
             while from < to {
                 let next = to.min(from + GROUP);
-                if let (Some(rays), Some(answers)) =
+                if let (Some(group), Some(of_group)) =
                     (rays.get(from..next), answers.get_mut(from..next))
                 {
-                    source.trace::<L, Q>(tier, token, rays, answers);
+                    let is_answered = source.trace::<L, Q>(tier, token, group, of_group);
+                    if !runs_together {
+                        gap = if is_answered { 0 } else { LONGEST_GAP.min(2 * gap + 1) };
+                    }
+                    if is_answered {
+                        let run = (rays, unanswered..from);
+                        test_all::<L, Q>(tier, token, list, learnt, run, answers);
+                        unanswered = next;
+                    }
                 }
                 from = next;
             }
+            learnt.add_work(source.work);
         }
-        if survey.packets > 0 {
-            unfit = from;
-        }
+    }
+    test_all::<L, Q>(tier, token, list, learnt, (rays, unanswered..count), answers);
+}
+
+/// Tests some packets against all spheres, except where the caller does otherwise.
+#[inline(always)]
+fn test_all<L: Lanes, Q: Query>(
+    tier: impl Accuracy,
+    token: L::Token,
+    list: &DepthList<'_>,
+    learnt: &mut Learnt,
+    (rays, run): (&[RayPacket<L::Array>], Range<usize>),
+    answers: &mut [Q::Packet<L::Array>],
+) {
+    if !run.is_empty()
+        && !learnt.leaves(run.clone())
+        && let (Some(rays), Some(answers)) = (rays.get(run.clone()), answers.get_mut(run))
+    {
+        linear::traverse::<L, Q>(tier, token, list.spheres, rays, answers);
     }
 }
 
@@ -107,6 +143,8 @@ struct ListSource<'a> {
     list: &'a DepthList<'a>,
     view: &'a View,
     listed: &'a Listed<'a>,
+    /// What its groups have done.
+    work: u64,
 }
 
 impl SphereSource for ListSource<'_> {
@@ -128,15 +166,15 @@ impl SphereSource for ListSource<'_> {
 }
 
 impl ListSource<'_> {
-    /// Answers the rays of up to four packets.
+    /// Answers the rays of up to four packets; returns `false`, and answers nothing, if they are too far apart, and go too deep.
     #[inline(always)]
     fn trace<L: Lanes, Q: Query>(
-        &self,
+        &mut self,
         tier: impl Accuracy,
         token: L::Token,
         rays: &[RayPacket<L::Array>],
         answers: &mut [Q::Packet<L::Array>],
-    ) {
+    ) -> bool {
         let inactive = RayPacket::inactive();
         let mut states = [self.state_of::<L>(token, &inactive); GROUP];
         let (factor, extent, squares) = (self.list.scale.factor, self.list.extent, tier.squares());
@@ -163,14 +201,27 @@ impl ListSource<'_> {
         }
         if live {
             count!(GroupFit);
-            let Some(fit) = Fit::of(states, self.list.extent, tier.spread()) else {
-                return linear::traverse::<L, Q>(tier, token, self.list.spheres, rays, answers);
-            };
-            let Some(frustum) = fit.enclose(states, NARROW) else {
-                return linear::traverse::<L, Q>(tier, token, self.list.spheres, rays, answers);
-            };
-            let outline = Outline::in_list(tier.spread(), fit.absolute_error);
-            let slack = spread_of(tier.spread(), self.list.extent, fit.absolute_error);
+            let (mut sides, mut blocks) = (Sides::ALL, self.nearest_blocks());
+            let mut is_fit = false;
+            if let Some(fit) = Fit::of(states, self.list.extent, tier.spread()) {
+                is_fit = true;
+                if let Some(frustum) = fit.enclose(states, NARROW) {
+                    (sides, blocks) = (frustum.sides, usize::MAX);
+                }
+            }
+            let mut covered = true;
+            for state in states.iter_mut() {
+                covered &= state.covered;
+                if !is_fit {
+                    state.sides = Sides::ALL;
+                }
+            }
+            if !covered {
+                return false;
+            }
+            let absolute_error = greatest_of!(states, s => s.rays.absolute_error);
+            let outline = Outline::in_list(tier.spread(), absolute_error);
+            let slack = spread_of(tier.spread(), self.list.extent, absolute_error);
             let mut reach = f32::NEG_INFINITY;
             for place in 0..states.len() {
                 let state = &mut states[place];
@@ -189,11 +240,16 @@ impl ListSource<'_> {
             while let Some((spheres, depth)) = self.listed.block(number)
                 && depth <= reach
             {
+                if number == blocks {
+                    self.work += u64::from(effort.work);
+                    return false;
+                }
                 let block = (number as u32, &spheres, depth);
                 number += 1;
                 count!(GroupLeaf);
                 // Short lists leave out already what lies before the rays.
-                let places = frustum.sides.look::<L>(token, &spheres, outline);
+                effort.leaf();
+                let places = sides.look::<L>(token, &spheres, outline);
                 if places == 0 {
                     continue;
                 }
@@ -208,12 +264,20 @@ impl ListSource<'_> {
                     (&mut reach, &mut effort),
                 );
             }
+            self.work += u64::from(effort.work);
         }
         for place in 0..states.len() {
             if let (Some(state), Some(answer)) = (states.get_mut(place), answers.get_mut(place)) {
                 *answer = state.finish::<Q>(tier, self);
             }
         }
+        true
+    }
+
+    /// How many blocks of the list rays look into that fit no frustum.
+    #[inline(always)]
+    fn nearest_blocks(&self) -> usize {
+        (self.list.listed.count / WIDTH / NEAREST).max(LEAST_BLOCKS)
     }
 
     /// Returns how deep the rays of a packet still go.

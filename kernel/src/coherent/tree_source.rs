@@ -8,6 +8,8 @@
 //! long as can be; or, with memory for it, as a stream. Where tries do not pay, few are made (`patience.rs`): rays that
 //! have nothing in common hardly pay for a try.
 
+#[cfg(feature = "std")]
+use super::giving_up::work_apart;
 use super::learnt::{Learnt, kind_of};
 use super::packet_source::PacketSource;
 use super::patience::{LONGEST, LONGEST_IF_COHERENT, SHORTEST, SHORTEST_IN_SMALL_TREE};
@@ -53,9 +55,15 @@ pub struct Alone<'a> {
 }
 
 impl Ways<'_> {
-    /// Returns memory for streams of so many rays that go by themselves; rays that are said to be incoherent get only lent memory.
+    /// Returns memory for streams of so many rays that go by themselves; rays that are said to be incoherent get only lent memory, and
+    /// rays on trial none.
     #[inline(always)]
     fn memory<Q: Query>(&mut self, bvh: &Bvh<'_>, rays: usize) -> Option<StreamMemory<'_>> {
+        // (What a stream does is not counted.)
+        #[cfg(feature = "alloc")]
+        if self.learnt.efforts.is_some() {
+            return None;
+        }
         #[cfg(feature = "alloc")]
         if self.lent.is_none() && self.coherence != Coherence::Incoherent {
             let sharing = &self.learnt.sharing[kind_of::<Q>()];
@@ -169,8 +177,10 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
             {
                 let rays = (source.packets(from..to), waiting);
                 #[cfg(feature = "alloc")]
+                let packets = waiting.map_or(to - from, PacketSet::count);
+                #[cfg(feature = "alloc")]
                 {
-                    ways.learnt.apart[0] += waiting.map_or(to - from, PacketSet::count);
+                    ways.learnt.apart[0] += packets;
                 }
                 let kind = kind_of::<Q>();
                 let mut sharing = ways.learnt.sharing[kind];
@@ -182,7 +192,11 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                     }
                     None => {
                         sharing.pass_over(L::COUNT * (to - from));
-                        wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
+                        let entered = wavefront::traverse::<L, Q>(tier, token, bvh, rays, answers);
+                        #[cfg(feature = "std")]
+                        ways.learnt.add_work(work_apart(bvh, L::COUNT * packets, entered.boxes));
+                        #[cfg(not(feature = "std"))]
+                        let _ = entered;
                     }
                 }
                 ways.learnt.sharing[kind] = sharing;

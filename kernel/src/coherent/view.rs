@@ -7,8 +7,9 @@
 //! lies along the common direction.
 
 use crate::accuracy::RayLanes;
+use crate::geometry::ray_packet::RayPacket;
 use crate::geometry::sphere::Sphere;
-use crate::lanes::Lanes;
+use crate::lanes::{LaneMask, Lanes};
 use crate::numeric::axes::{axes, dot};
 use crate::numeric::power_of_two::inverse_power_of_two;
 use crate::numeric::rounding::{LARGEST, LEAST_COMPONENT, U};
@@ -89,6 +90,17 @@ impl View {
             has[i].le(common) & common.le(has[i])
         });
         x & y & z
+    }
+
+    /// Returns whether all live rays of a packet have it.
+    #[inline(always)]
+    pub(super) fn is_shared_by<L: Lanes>(
+        &self,
+        token: L::Token,
+        packet: &RayPacket<L::Array>,
+    ) -> bool {
+        let rays = RayLanes::<L>::load(token, packet);
+        !(rays.live & !self.shares(&rays)).any()
     }
 
     /// Returns the rays in the frame.

@@ -10,6 +10,7 @@ use crate::bvh::traverse::one_ray;
 use crate::bvh::tree::Bvh;
 use crate::coherent::depth_list::DepthList;
 use crate::coherent::few_rays::{self, Asked};
+use crate::coherent::learnt::Learnt;
 use crate::coherent::packet_source::PacketSource;
 use crate::coherent::ray_order::RayKeys;
 use crate::coherent::tree_source::Ways;
@@ -163,7 +164,7 @@ compiled! {
     /// Of a tree, as the rays are coherent or not.
     fn tree(bvh: &Bvh<'_>, ways: Ways<'_>, packets: PacketSource<'_, [f32; 16]>) = tree_source::traverse;
     /// Of a depth list.
-    fn depth_list(list: &DepthList<'_>, scratch: &mut [f32], rays: &[RayPacket]) = list_source::traverse;
+    fn depth_list(list: &DepthList<'_>, memory: (&mut [f32], &mut Learnt), rays: &[RayPacket]) = list_source::traverse;
 }
 
 /// [`pair_lanes`](crate::pair_lanes), packet by packet.

@@ -1,5 +1,7 @@
 //! A caller's packets: they are traced where they lie, except those whose rays gain by another order.
 
+#[cfg(feature = "std")]
+use super::by_depth;
 use super::in_order;
 use super::window::PACKETS;
 use crate::Accuracy;
@@ -24,20 +26,65 @@ pub(super) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     let count = rays.len().min(answers.len());
     let is_long = count * RayPacket::COUNT >= FEWEST_IN_GROUPS;
     let (mut from, mut packets) = (0, if is_long { FIRST } else { count });
-    while let (Some(rest), Some(left)) = (rays.get(from..count), answers.get_mut(from..count))
-        && !rest.is_empty()
-    {
-        let (rest, left) = (rest.split_at_checked(packets), left.split_at_mut_checked(packets));
-        let (Some((rays, rest)), Some((answers, left))) = (rest, left) else { break };
-        structure.in_packets::<Q>(tier, trace, rays, answers);
-        from += packets;
-        if let Some(gain) = structure.gain_by_order::<Q>(trace)
+    #[cfg(feature = "std")]
+    let (mut next_depth_look, fewest) = (0, by_depth::FEWEST / RayPacket::COUNT);
+    while from < count {
+        #[cfg(feature = "std")]
+        let is_counted =
+            from >= next_depth_look && count - from >= fewest && structure.may_gain_by_depth(trace);
+        #[cfg(feature = "std")]
+        if is_counted {
+            trace.learnt.count_work();
+            packets = FIRST;
+        }
+        let to = count.min(from + packets);
+        if let (Some(rays), Some(answers)) = (rays.get(from..to), answers.get_mut(from..to)) {
+            structure.in_packets::<Q>(tier, trace, rays, answers);
+        }
+        from = to;
+        #[cfg(feature = "std")]
+        if is_counted {
+            from = nearest_first::<S, Q>(structure, tier, trace, (rays, to), answers);
+            // Those after many of one point may be of another.
+            if from >= to + fewest {
+                next_depth_look = from;
+                continue;
+            }
+            next_depth_look = from + AT_ONCE;
+        }
+        if let (Some(rest), Some(left)) = (rays.get(from..count), answers.get_mut(from..count))
+            && let Some(gain) = structure.gain_by_order::<Q>(trace)
             && gain.is_for(rest.len() * RayPacket::COUNT)
         {
             from += sorted::<S, Q>(structure, tier, trace, (gain, rest), left);
         }
-        packets = AT_ONCE.min(count - from);
+        packets = AT_ONCE;
     }
+}
+
+/// Answers packets from `from` on, after some whose work is counted, by the spheres in the order of their depth, as long as that pays. Returns
+/// the number of the first that is not answered. (A function of its own, as below.)
+#[cfg(feature = "std")]
+#[inline(never)]
+fn nearest_first<S: Traverse + ?Sized, Q: LevelQuery>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    (rays, from): (&[RayPacket], usize),
+    answers: &mut [Q::Packet<[f32; 16]>],
+) -> usize {
+    let (mut packets, mut answered) = ([RayPacket::BLANK; PACKETS], [Q::none(); PACKETS]);
+    let counted = answers.get(from.saturating_sub(FIRST)..from).unwrap_or_default();
+    for (to, answer) in answered.iter_mut().zip(counted) {
+        *to = *answer;
+    }
+    let [counted, from] = [counted.len(), from].map(|packets| packets * RayPacket::COUNT);
+    let count = rays.len().min(answers.len()) * RayPacket::COUNT;
+    let work = (counted, trace.learnt.counted_work() / counted.max(1) as f32);
+    let (rays, mut answers) = ((&ManyRays::Packets(rays), from, count), Q::of_packets(answers));
+    let all = (&mut answered[..], &mut answers);
+    let next = by_depth::answer::<S, Q>(structure, tier, trace, rays, work, &mut packets, all);
+    next / RayPacket::COUNT
 }
 
 /// Answers packets whose rays gain by another order; returns how many. (A function of its own, so that other packets do not

@@ -1,10 +1,9 @@
 //! Rays of a long call that have nothing in common: many are answered at once, so that a tree can trace them as a stream,
 //! in memory that the call allocates.
 
+use super::window::answer_part;
 use crate::Accuracy;
 use crate::geometry::many::ManyRays;
-#[cfg(not(feature = "std"))]
-use crate::geometry::many_answers::ManyAnswers;
 use crate::geometry::ray_packet::RayPacket;
 use crate::memory::lengthen;
 use crate::structures::{LevelQuery, Traverse};
@@ -35,12 +34,9 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
             break;
         }
         let to = (from + at_once).min(count);
-        let part = rays.part(from, to);
-        structure.many_in_packets::<Q>(tier, trace, &part, &mut packets, &mut answered);
-        #[cfg(feature = "std")]
-        Q::write_at(trace.level, answers, &answered, from, to);
-        #[cfg(not(feature = "std"))]
-        answers.write(&answered, from, to);
+        let part = (rays, from, to);
+        let answers = (&mut answered[..], &mut *answers);
+        answer_part::<S, Q>(structure, tier, trace, part, &mut packets, answers);
         from = to;
     }
     trace.kept.put_packets(packets);

@@ -127,6 +127,12 @@ impl Traverse for Bvh<'_> {
         trace.learnt.gain_by_order::<Q>(self, trace.coherence)
     }
 
+    #[cfg(feature = "std")]
+    fn may_gain_by_depth(&self, trace: &Trace<'_>) -> bool {
+        let is_asked = trace.stream.is_none() && trace.coherence != Coherence::Incoherent;
+        is_asked && !cfg!(unoptimised) && !small_tree::is_listed(self)
+    }
+
     #[cfg(feature = "alloc")]
     fn many_at_once<Q: LevelQuery>(&self, trace: &Trace<'_>, rays: usize) -> Option<usize> {
         // Rays that are said to be incoherent go as a stream in lent memory alone.

@@ -118,9 +118,10 @@ fn works<Q: Compiled>(
     let mut answers = vec![Q::none::<[f32; 16]>(); packets.len()];
     let mut scratch = vec![0.0; DepthList::scratch(bvh.spheres.len())];
     let list = Work::of(|| Q::list(level, tier, bvh.spheres, packets, &mut answers));
-    let by_depth = Work::of(|| {
-        Q::depth_list(level, tier, depth_list, &mut scratch, packets, &mut answers);
-    });
+    let mut trace = Trace::new();
+    let memory = (&mut scratch[..], &mut trace.learnt);
+    let by_depth =
+        Work::of(|| Q::depth_list(level, tier, depth_list, memory, packets, &mut answers));
     let [together, apart] = [Coherence::Coherent, Coherence::Incoherent].map(|coherence| {
         let mut trace = Trace::new();
         let (kept, learnt) = (&mut trace.kept, &mut trace.learnt);

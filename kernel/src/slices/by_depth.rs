@@ -1,0 +1,194 @@
+//! Rays of a long call that start in one point: if they do much in a tree, by the spheres in the order of their distance from it.
+//!
+//! # Method
+//!
+//! A ray enters all boxes in which it starts: among nested spheres those of the whole tree. Through spheres in the order of their distance it
+//! goes no farther than to its first hit. Which of the two is faster depends on scene and rays. So some packets go down the tree, and
+//! what they do is counted. If that is much more than to sort the spheres, others go through a [`DepthList`], and are counted, too. The rest
+//! follows as long as that is less. Packets that go deep go down the tree all the same.
+//!
+//! (With `std` alone: else packets may be traced ray by ray, and no packet could be left to the tree.)
+
+use super::window::{PACKETS, answer_part};
+use crate::Accuracy;
+use crate::coherent::depth_list::DepthList;
+use crate::coherent::ray_order::MOST;
+use crate::coherent::view::Viewpoint;
+use crate::geometry::many::ManyRays;
+use crate::geometry::ray_packet::RayPacket;
+use crate::geometry::sphere::Spheres;
+use crate::memory::lengthen;
+use crate::structures::{LevelQuery, Traverse};
+use crate::trace::Trace;
+use alloc::vec::Vec;
+use glam::Vec3;
+
+/// The most spheres that are sorted: they take 2.4 MB.
+const MOST_SPHERES: usize = 100_000;
+/// The fewest rays, and the fewest for each sphere.
+pub(super) const FEWEST: usize = 8192;
+const RAYS_A_SPHERE: usize = 2;
+/// What it takes to sort a sphere, in steps of work.
+const SORTING: f32 = 30.0;
+/// One part in so many of the work may be lost if sorting does not pay; and if it likely does.
+const PARTS: [f32; 2] = [200.0, 10.0];
+/// It likely pays if a ray goes past at most so many spheres for each step of work in the tree.
+const PASSED_A_STEP: f32 = 1.0;
+/// What any ray takes besides: it is read, and its answer written.
+const BESIDES: f32 = 4.0;
+/// How many packets are tried in the list. They pay if they do at most nine tenths of what others did in the tree.
+const TRIED: usize = 8;
+const PAYS: f32 = 0.9;
+/// Rays that do more than half of that may do more than other rays beside them do in the tree: a few of these are counted, too.
+const IN_DOUBT: f32 = 0.5;
+/// How many rays are looked at; and how many hits, and spheres.
+const LOOKED_AT: usize = 32;
+const REACHES_LOOKED_AT: usize = 16;
+const SPHERES_LOOKED_AT: usize = 128;
+
+/// Answers some rays from `from` on, by the list as long as that pays. Those just answered were so many, and each has done the work
+/// `in_tree`. Returns the number of the first that is not answered.
+#[inline(never)]
+pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    (rays, from, count): (&ManyRays<'_>, usize, usize),
+    (counted, mut in_tree): (usize, f32),
+    packets: &mut [RayPacket],
+    (answered, answers): (&mut [Q::Packet<[f32; 16]>], &mut Q::Many<'_>),
+) -> usize {
+    let spheres = structure.list();
+    // (Other tiers have false hits, of which a list finds others than a tree does.)
+    if tier.spread() != 0.0 || spheres.len() > MOST_SPHERES {
+        return from;
+    }
+    let Some((origin, left)) = common_origin(&rays.part(from, count)) else { return from };
+    if left < FEWEST.max(RAYS_A_SPHERE * spheres.len()) {
+        return from;
+    }
+    let after = |from, packets| count.min(from + packets * RayPacket::COUNT);
+    // If the list does not pay, the others may come in another order than these.
+    let (mut to, learnt) = (from, trace.learnt);
+    let sorting = SORTING * spheres.len() as f32 / left as f32;
+    let in_all = BESIDES + in_tree;
+    if in_all < PARTS[0] * sorting
+        && (in_all < PARTS[1] * sorting
+            || passed::<Q>(origin, &rays.part(from - counted, from), answered, &spheres)
+                > PASSED_A_STEP * in_tree)
+    {
+        return from;
+    }
+    let mut memory = Vec::new();
+    if lengthen(&mut memory, 0.0, DepthList::needed(spheres.len())).is_err() {
+        return from;
+    }
+    let Ok(list) = DepthList::sort(spheres, Viewpoint::Origin(origin), &mut memory) else {
+        return from;
+    };
+
+    let mut at_once = TRIED;
+    while to < count {
+        let part = (rays, to, after(to, at_once));
+        let (both, all) = ((structure, &list), (&mut *answered, &mut *answers));
+        let in_list = by_list::<S, Q>(both, tier, trace, (part, in_tree), packets, all);
+        (to, at_once) = (part.2, PACKETS);
+        if in_list > IN_DOUBT * in_tree && to < count {
+            let part = (rays, to, after(to, TRIED));
+            let all = (&mut *answered, &mut *answers);
+            in_tree = by_tree::<S, Q>(structure, tier, trace, part, packets, all);
+            to = part.2;
+        }
+        if in_list > PAYS * in_tree {
+            trace.learnt = learnt;
+            break;
+        }
+    }
+    to
+}
+
+/// Answers some rays by the tree; returns the work of one.
+fn by_tree<S: Traverse + ?Sized, Q: LevelQuery>(
+    structure: &S,
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    (rays, from, to): (&ManyRays<'_>, usize, usize),
+    packets: &mut [RayPacket],
+    all: (&mut [Q::Packet<[f32; 16]>], &mut Q::Many<'_>),
+) -> f32 {
+    trace.learnt.count_work();
+    answer_part::<S, Q>(structure, tier, trace, (rays, from, to), packets, all);
+    trace.learnt.counted_work() / (to - from) as f32
+}
+
+/// Answers some rays by the list, and by the tree the packets that go too deep; returns the work of one ray, of which `in_tree` is done in
+/// the tree.
+fn by_list<S: Traverse + ?Sized, Q: LevelQuery>(
+    (structure, list): (&S, &DepthList<'_>),
+    tier: impl Accuracy,
+    trace: &mut Trace<'_>,
+    ((rays, from, to), in_tree): ((&ManyRays<'_>, usize, usize), f32),
+    packets: &mut [RayPacket],
+    (answered, answers): (&mut [Q::Packet<[f32; 16]>], &mut Q::Many<'_>),
+) -> f32 {
+    (trace.learnt.work, trace.learnt.unanswered) = (0, Some(0));
+    list.many_in_packets::<Q>(tier, trace, &rays.part(from, to), packets, answered);
+    let mut unanswered = trace.learnt.unanswered.take().unwrap_or_default();
+    let of_list = trace.learnt.work as f32;
+    let of_tree = RayPacket::COUNT as f32 * unanswered.count_ones() as f32 * in_tree;
+    // Those that follow each other by one call.
+    while unanswered != 0 {
+        let first = unanswered.trailing_zeros();
+        let after = first + (unanswered >> first).trailing_ones();
+        unanswered &= u64::MAX.checked_shl(after).unwrap_or_default();
+        let run = first as usize..after as usize;
+        if let (Some(packets), Some(answered)) = (packets.get(run.clone()), answered.get_mut(run)) {
+            structure.in_packets::<Q>(tier, trace, packets, answered);
+        }
+    }
+    Q::write_at(trace.level, answers, answered, from, to);
+    (of_list + of_tree) / (to - from) as f32
+}
+
+/// Returns the point in which the first ray starts, and about how many rays from there on do so.
+fn common_origin(rays: &ManyRays<'_>) -> Option<(Vec3, usize)> {
+    let step = (rays.count().min(MOST) / LOOKED_AT) | 1;
+    let mut some =
+        (0..LOOKED_AT).filter_map(|number| Some((number * step, rays.ray(number * step)?)));
+    let (_, first) = some.by_ref().find(|(_, ray)| ray.is_live())?;
+    let other = some.find(|(_, ray)| ray.is_live() && ray.origin != first.origin);
+    Some((first.origin, other.map_or(rays.count(), |(number, _)| number)))
+}
+
+/// Returns about how many spheres are nearer to the origin than what a ray hits, as some that were answered tell; infinitely many if hits
+/// have no distance.
+fn passed<Q: LevelQuery>(
+    origin: Vec3,
+    rays: &ManyRays<'_>,
+    answered: &[Q::Packet<[f32; 16]>],
+    spheres: &Spheres<'_>,
+) -> f32 {
+    if Q::ANY {
+        return f32::INFINITY;
+    }
+    // One of each packet.
+    let mut reaches = [0.0; REACHES_LOOKED_AT];
+    for (number, (reach, answer)) in reaches.iter_mut().zip(answered).enumerate() {
+        let lane = number % RayPacket::COUNT;
+        if let Some(ray) = rays.ray(number * RayPacket::COUNT + lane) {
+            *reach = Q::limit(answer, lane) * ray.direction.length();
+        }
+    }
+    let step = spheres.len().div_ceil(SPHERES_LOOKED_AT).max(1);
+    let (mut looked_at, mut passed) = (0, 0);
+    for number in (0..spheres.len()).step_by(step) {
+        let Some(sphere) = spheres.get(number) else { break };
+        let depth = ((sphere.center - origin).length() - sphere.radius).abs();
+        looked_at += REACHES_LOOKED_AT;
+        passed += reaches.iter().filter(|reach| depth < **reach).count();
+    }
+    passed as f32 * spheres.len() as f32 / looked_at.max(1) as f32
+}
+
+#[cfg(all(test, proofs))]
+mod tests;

@@ -1,0 +1,158 @@
+//! When rays of one viewpoint go through a list by depth, and when they return to the tree.
+
+extern crate std;
+
+use super::FEWEST;
+use crate::coherent::ray_order::tests::{point, rays};
+use crate::proofs::climb::Random;
+use crate::proofs::work::{Kind, Work};
+use crate::{
+    Coherence, Exact, Fast, Hit, HitPacket, Intersect, Ray, RayPacket, SphereList, SphereTree,
+    Trace, Vec3,
+};
+use std::vec;
+use std::vec::Vec;
+
+/// Where all rays start: inside many of the spheres below.
+const INSIDE: Vec3 = Vec3::new(0.11, 0.07, -0.13);
+
+/// Spheres one within the other, not quite around one point.
+fn nested(count: usize) -> SphereTree {
+    let mut random = Random(113);
+    let sphere = |number: usize| {
+        let radius = (number + 1) as f32 / count as f32;
+        (0.1 * radius * point(&mut random), radius)
+    };
+    SphereTree::new((0..count).map(sphere).collect::<SphereList>())
+}
+
+/// Spheres of which none contains another.
+fn apart(count: usize) -> SphereTree {
+    let mut random = Random(127);
+    let radius = 0.5 / (count as f32).cbrt();
+    SphereTree::new((0..count).map(|_| (point(&mut random), radius)).collect::<SphereList>())
+}
+
+/// In all directions, in no order.
+fn all_around(count: usize) -> Vec<Ray> {
+    rays(count, |random| Ray::new(INSIDE, point(random)))
+}
+
+/// What each ray hits by itself, which is what it must hit in any call.
+fn one_by_one(tree: &SphereTree, rays: &[Ray]) -> Vec<Option<Hit>> {
+    rays.iter().map(|ray| tree.closest_hit(Exact, ray)).collect()
+}
+
+/// Answers the rays as a caller says who says nothing, and checks the answers.
+fn checked(tree: &SphereTree, rays: &[Ray]) -> Work {
+    let (mut hits, mut occluded) = (vec![None; rays.len()], vec![false; rays.len()]);
+    let work = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
+    tree.any_hits(Exact, rays, &mut occluded);
+    let expected = one_by_one(tree, rays);
+    assert!(hits == expected);
+    // Packets of the caller's do no more.
+    let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+    let mut in_packets = vec![HitPacket::none(); packets.len()];
+    let trace = &mut Trace::new();
+    let of_packets = Work::of(|| tree.closest_hit_packets(Exact, trace, &packets, &mut in_packets));
+    let lanes =
+        in_packets.iter().flat_map(|packet| (0..RayPacket::COUNT).map(|lane| packet.hit(lane)));
+    assert!(lanes.take(rays.len()).eq(expected.iter().copied()));
+    let [boxes, of_packets] = [work, of_packets].map(|work| boxes_and_packets(work, rays.len())[0]);
+    assert!(of_packets < 1.2 * boxes + 8.0, "{boxes} boxes a ray, {of_packets} in packets");
+    assert!(occluded.iter().zip(&expected).all(|(occluded, hit)| *occluded == hit.is_some()));
+    work
+}
+
+/// Boxes that a ray entered, and packets that are of a list or of a group.
+fn boxes_and_packets(work: Work, rays: usize) -> [f64; 2] {
+    let boxes =
+        work.count(Kind::RayNode) + work.count(Kind::RayLeaf) + work.count(Kind::StreamLeaf);
+    [boxes, work.count(Kind::GroupPacket)].map(|count| count as f64 / rays as f64)
+}
+
+#[test]
+fn among_nested_spheres_rays_of_one_point_enter_few_boxes() {
+    let tree = nested(900);
+    let rays = all_around(FEWEST + 2000);
+    let [boxes, _] = boxes_and_packets(checked(&tree, &rays), rays.len());
+    let said = |coherence| {
+        let (mut trace, mut hits) = (Trace::new().with(coherence), vec![None; rays.len()]);
+        let work = Work::of(|| tree.closest_hits_with(Exact, &mut trace, &rays, &mut hits));
+        boxes_and_packets(work, rays.len())[0]
+    };
+    assert!(boxes < 3.0, "{boxes} boxes a ray");
+    // So it is if they are said to run the same way; not if they are said not to.
+    assert!(said(Coherence::Coherent) < 3.0 && said(Coherence::Incoherent) > 40.0);
+}
+
+#[test]
+fn where_boxes_are_few_nothing_is_sorted() {
+    let tree = apart(3000);
+    let rays = all_around(FEWEST + 2000);
+    let tree_alone: Vec<_> =
+        rays.iter().map(|ray| Ray { origin: ray.origin + 1e-3 * ray.direction, ..*ray }).collect();
+    let [these, those] =
+        [&rays, &tree_alone].map(|rays| checked(&tree, rays).count(Kind::GroupLeaf));
+    assert!(these <= those + those / 10 + 100, "{these} blocks and leaves, {those}");
+}
+
+/// Too few rays, for the call or for the spheres, and tiers whose false hits differ.
+#[test]
+fn others_go_down_the_tree() {
+    let (tree, rays) = (nested(900), all_around(FEWEST + 2000));
+    let boxes = |rays: &[Ray]| {
+        let mut hits = vec![None; rays.len()];
+        let work = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
+        boxes_and_packets(work, rays.len())[0]
+    };
+    assert!(boxes(&rays[..FEWEST - 1]) > 40.0);
+    let (mut hits, mut one) = (vec![None; rays.len()], vec![None; rays.len()]);
+    let work = Work::of(|| tree.closest_hits(Fast, &rays, &mut hits));
+    assert!(boxes_and_packets(work, rays.len())[0] > 40.0);
+    for (ray, hit) in rays.iter().zip(&mut one) {
+        *hit = tree.closest_hit(Fast, ray);
+    }
+    assert!(hits == one);
+    // So far away that no bound covers the viewpoint.
+    let far: Vec<_> = rays.iter().map(|ray| Ray { origin: 1e30 * Vec3::X, ..*ray }).collect();
+    assert_eq!(checked(&tree, &far).count(Kind::ListGroup), 0);
+}
+
+/// Rays of other points, each at another place of its packet; dead ones; rays that start past all hits nearby, and before their origin.
+#[test]
+fn strangers_are_answered_as_they_are_alone() {
+    let tree = nested(400);
+    let mut rays = all_around(FEWEST + 3000);
+    for (number, ray) in rays.iter_mut().enumerate().skip(1024) {
+        match number % 977 {
+            0 => ray.origin += 0.3 * Vec3::X,
+            20 => ray.direction = Vec3::ZERO,
+            40 => ray.origin.y = f32::NAN,
+            60 => ray.t_min = 0.2,
+            70 => ray.t_min = -3.0,
+            80 => ray.t_max = 1e-3,
+            90 => ray.direction *= 1e30,
+            _ => {}
+        }
+    }
+    let [boxes, packets] = boxes_and_packets(checked(&tree, &rays), rays.len());
+    assert!(boxes < 40.0 && packets > 0.05, "{boxes} boxes, {packets} packets a ray");
+}
+
+/// One scan after the other in a call: each has a list of its own.
+#[test]
+fn rays_of_a_second_point_have_a_list_of_their_own() {
+    let tree = nested(900);
+    let mut rays = all_around(4 * FEWEST);
+    let [second, third] = [3, 6].map(|halves| halves * FEWEST / 2);
+    for ray in &mut rays[second..] {
+        ray.origin = Vec3::new(-0.2, 0.3, 0.1);
+    }
+    for (number, ray) in rays[third..].iter_mut().enumerate() {
+        ray.origin.x += number as f32 / FEWEST as f32;
+    }
+    let boxes = |rays: &[Ray]| boxes_and_packets(checked(&tree, rays), 1)[0];
+    let [all, of_third] = [&rays[..], &rays[third..]].map(boxes);
+    assert!(all - of_third < 8.0 * third as f64, "{} boxes in the two scans", all - of_third);
+}
