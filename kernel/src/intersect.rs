@@ -174,7 +174,7 @@ pub trait Intersect: Lend {
     ///
     /// With feature `alloc`, a call of more than 1,008 rays in a tree of more than four leaves may allocate up to 430 bytes a ray, at
     /// most 4.5 MB. It does so to sort rays that have nothing in common with those next to them, or to trace them as a stream. With
-    /// `std`, a call of more than 8,192 rays may allocate 24 bytes a sphere to sort these, at most 2.4 MB. If an allocation fails, the
+    /// `std`, a call of more than 1,280 rays may allocate 24 bytes a sphere to sort these, at most 2.4 MB. If an allocation fails, the
     /// call goes on without the memory.
     ///
     /// ```

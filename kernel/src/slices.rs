@@ -116,18 +116,19 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     let mut next_depth_look = 0;
     // (No `chunks`: they divide by their length, and may panic where the compiler does not know it.)
     while from < count {
+        #[cfg(feature = "std")]
+        let is_counted = from >= next_depth_look
+            && count - from >= FIRST * RayPacket::COUNT + by_depth::FEWEST
+            && structure.may_gain_by_depth(trace);
+        #[cfg(feature = "std")]
+        if is_counted {
+            packets_at_once = FIRST.min(AT_ONCE);
+            trace.learnt.count_work();
+        }
         let to = (from + packets_at_once * RayPacket::COUNT).min(count);
         #[cfg(feature = "std")]
         if from > 0 && structure.goes_one_by_one(trace, rays, from..to) {
             return one_by_one::<S, Q>(structure, tier, trace, (rays, from, to), &mut answers);
-        }
-        #[cfg(feature = "std")]
-        let is_counted = from >= next_depth_look
-            && count - from >= by_depth::FEWEST
-            && structure.may_gain_by_depth(trace);
-        #[cfg(feature = "std")]
-        if is_counted {
-            trace.learnt.count_work();
         }
         let all = (&mut answered[..], &mut answers);
         answer_part::<S, Q>(structure, tier, trace, (rays, from, to), &mut packets, all);
@@ -141,8 +142,7 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
             let (rest, all) = ((rays, from, count), (&mut answered[..], &mut answers));
             let before = from;
             from = by_depth::answer::<S, Q>(structure, tier, trace, rest, work, &mut packets, all);
-            // Those after many of one point may be of another.
-            if from >= before + by_depth::FEWEST {
+            if from >= before + by_depth::MANY {
                 next_depth_look = from;
                 continue;
             }

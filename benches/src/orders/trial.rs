@@ -20,7 +20,7 @@ const LEAST: usize = 1024;
 /// How many tests of brute force a check may cost.
 const TESTS: usize = 1 << 20;
 
-/// The ways that are shown however slow they are.
+/// The ways that are shown however slow they are; the plain call is timed in any case.
 const SHOWN: [Way; 3] = [Way::RayByRay, Way::Coherent, Way::Plain];
 
 /// What is to be timed.
@@ -93,8 +93,8 @@ fn times(
         for _ in 0..again {
             time = time.min(work.run(way, level, query) / count);
         }
-        // Streams are slow for few rays, but not for more.
-        if time > SLOW * best && way != Way::Stream {
+        // Streams and the plain call may be slow for few rays, but not for more.
+        if time > SLOW * best && !matches!(way, Way::Stream | Way::Plain) {
             slow.push((way, time / timed[0].1));
         } else {
             timed.push((way, time));

@@ -25,9 +25,9 @@ use glam::Vec3;
 
 /// The most spheres that are sorted: they take 2.4 MB.
 const MOST_SPHERES: usize = 100_000;
-/// The fewest rays, and the fewest for each sphere.
-pub(super) const FEWEST: usize = 8192;
-const RAYS_A_SPHERE: usize = 2;
+/// The fewest rays; and so many that those after them are looked at anew, since they may start in another point.
+pub(super) const FEWEST: usize = 1024;
+pub(super) const MANY: usize = 8192;
 /// What it takes to sort a sphere, in steps of work.
 const SORTING: f32 = 30.0;
 /// One part in so many of the work may be lost if sorting does not pay; and if it likely does.
@@ -64,7 +64,7 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         return from;
     }
     let Some((origin, left)) = common_origin(&rays.part(from, count)) else { return from };
-    if left < FEWEST.max(RAYS_A_SPHERE * spheres.len()) {
+    if left < FEWEST {
         return from;
     }
     let after = |from, packets| count.min(from + packets * RayPacket::COUNT);

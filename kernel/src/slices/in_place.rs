@@ -45,8 +45,7 @@ pub(super) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
         #[cfg(feature = "std")]
         if is_counted {
             from = nearest_first::<S, Q>(structure, tier, trace, (rays, to), answers);
-            // Those after many of one point may be of another.
-            if from >= to + fewest {
+            if from >= to + by_depth::MANY / RayPacket::COUNT {
                 next_depth_look = from;
                 continue;
             }

@@ -2,7 +2,7 @@
 
 extern crate std;
 
-use super::FEWEST;
+use super::{FEWEST, MANY};
 use crate::coherent::ray_order::tests::{point, rays};
 use crate::proofs::climb::Random;
 use crate::proofs::work::{Kind, Work};
@@ -74,7 +74,7 @@ fn boxes_and_packets(work: Work, rays: usize) -> [f64; 2] {
 #[test]
 fn among_nested_spheres_rays_of_one_point_enter_few_boxes() {
     let tree = nested(900);
-    let rays = all_around(FEWEST + 2000);
+    let rays = all_around(MANY + 2000);
     let [boxes, _] = boxes_and_packets(checked(&tree, &rays), rays.len());
     let said = |coherence| {
         let (mut trace, mut hits) = (Trace::new().with(coherence), vec![None; rays.len()]);
@@ -89,7 +89,7 @@ fn among_nested_spheres_rays_of_one_point_enter_few_boxes() {
 #[test]
 fn where_boxes_are_few_nothing_is_sorted() {
     let tree = apart(3000);
-    let rays = all_around(FEWEST + 2000);
+    let rays = all_around(MANY + 2000);
     let tree_alone: Vec<_> =
         rays.iter().map(|ray| Ray { origin: ray.origin + 1e-3 * ray.direction, ..*ray }).collect();
     let [these, those] =
@@ -100,7 +100,7 @@ fn where_boxes_are_few_nothing_is_sorted() {
 /// Too few rays, for the call or for the spheres, and tiers whose false hits differ.
 #[test]
 fn others_go_down_the_tree() {
-    let (tree, rays) = (nested(900), all_around(FEWEST + 2000));
+    let (tree, rays) = (nested(900), all_around(MANY + 2000));
     let boxes = |rays: &[Ray]| {
         let mut hits = vec![None; rays.len()];
         let work = Work::of(|| tree.closest_hits(Exact, rays, &mut hits));
@@ -123,7 +123,7 @@ fn others_go_down_the_tree() {
 #[test]
 fn strangers_are_answered_as_they_are_alone() {
     let tree = nested(400);
-    let mut rays = all_around(FEWEST + 3000);
+    let mut rays = all_around(MANY + 3000);
     for (number, ray) in rays.iter_mut().enumerate().skip(1024) {
         match number % 977 {
             0 => ray.origin += 0.3 * Vec3::X,
@@ -144,13 +144,13 @@ fn strangers_are_answered_as_they_are_alone() {
 #[test]
 fn rays_of_a_second_point_have_a_list_of_their_own() {
     let tree = nested(900);
-    let mut rays = all_around(4 * FEWEST);
-    let [second, third] = [3, 6].map(|halves| halves * FEWEST / 2);
+    let mut rays = all_around(4 * MANY);
+    let [second, third] = [3, 6].map(|halves| halves * MANY / 2);
     for ray in &mut rays[second..] {
         ray.origin = Vec3::new(-0.2, 0.3, 0.1);
     }
     for (number, ray) in rays[third..].iter_mut().enumerate() {
-        ray.origin.x += number as f32 / FEWEST as f32;
+        ray.origin.x += number as f32 / MANY as f32;
     }
     let boxes = |rays: &[Ray]| boxes_and_packets(checked(&tree, rays), 1)[0];
     let [all, of_third] = [&rays[..], &rays[third..]].map(boxes);
