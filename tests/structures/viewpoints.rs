@@ -51,7 +51,7 @@ fn all_around_a_point() {
             end_at_answers(&mut random, &mut rays, &spheres);
             for ray in rays.iter_mut().skip(100) {
                 match random.integer(0, 60) {
-                    0 => ray.origin += scenes::point(&mut random, 0.1),
+                    0 => ray.origin += point(&mut random, 0.1),
                     1 => ray.direction = Vec3::ZERO,
                     2 => ray.t_min = -1.0,
                     3 => ray.direction *= 1e30,
