@@ -6,6 +6,7 @@
 
 use super::listed::{column_length, columns};
 use super::view::View;
+use crate::count::count;
 use crate::geometry::sphere::{Sphere, Spheres};
 use crate::numeric::axes::axes;
 use crate::numeric::radix_sort::radix_sort;
@@ -34,6 +35,7 @@ pub(super) fn sort(
     memory: &mut [f32],
 ) -> Sorted {
     let count = spheres.len();
+    count!(SphereSorted, count);
     let mut columns = columns(memory, column_length(count));
 
     let [spare, _, _, _, keys, indices] = &mut columns;

@@ -37,9 +37,9 @@ pub struct Learnt {
     /// Of groups on trial: what they did, and what their rays would have done apart. `None` if they are not on trial.
     #[cfg(feature = "alloc")]
     pub(crate) efforts: Option<[u64; 2]>,
-    /// What rays have done by themselves, and in a depth list, since the caller set it to zero: in steps as of groups.
+    /// What rays do by themselves, and in a depth list, in steps as of groups. `None` if it is not counted.
     #[cfg(feature = "std")]
-    pub(crate) work: u64,
+    pub(crate) work: Option<u64>,
     /// Of up to 64 packets those that a depth list has not answered, a bit each. `None` if it tests these against all spheres.
     #[cfg(feature = "std")]
     pub(crate) unanswered: Option<u64>,
@@ -56,7 +56,7 @@ impl Learnt {
         #[cfg(feature = "alloc")]
         efforts: None,
         #[cfg(feature = "std")]
-        work: 0,
+        work: None,
         #[cfg(feature = "std")]
         unanswered: None,
     };
@@ -75,22 +75,22 @@ impl Learnt {
     /// Counts the work of the next packets.
     #[cfg(feature = "std")]
     pub(crate) fn count_work(&mut self) {
-        (self.efforts, self.work) = (Some([0; 2]), 0);
+        (self.efforts, self.work) = (Some([0; 2]), Some(0));
     }
 
     /// Returns the work of these packets.
     #[cfg(feature = "std")]
     pub(crate) fn counted_work(&mut self) -> f32 {
         let [of_groups, _] = self.efforts.take().unwrap_or_default();
-        (of_groups + self.work) as f32
+        (of_groups + self.work.take().unwrap_or_default()) as f32
     }
 
     /// Counts what rays did by themselves, or in a depth list.
     #[inline(always)]
     pub(super) fn add_work(&mut self, work: u64) {
         #[cfg(feature = "std")]
-        {
-            self.work = self.work.wrapping_add(work);
+        if let Some(counted) = &mut self.work {
+            *counted = counted.wrapping_add(work);
         }
         let _ = work;
     }

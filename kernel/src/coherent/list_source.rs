@@ -13,6 +13,7 @@ use super::learnt::Learnt;
 use super::listed::Listed;
 use super::packet_group::{GROUP, meet_block};
 use super::packet_state::PacketState;
+use super::patience::Patience;
 use super::survey::{Survey, reaches};
 use super::view::View;
 use crate::Accuracy;
@@ -40,8 +41,8 @@ const NARROW: f32 = 2.0;
 /// sphere takes twice as long in this order as in the list's.)
 const NEAREST: usize = 8;
 const LEAST_BLOCKS: usize = 8;
-/// After a packet in vain so many go without a try at most.
-const LONGEST_GAP: usize = 63;
+/// How many go without a try after one in vain, at least and at most.
+const GAPS: [u8; 2] = [1, 63];
 
 /// Answers every ray.
 #[inline(always)]
@@ -61,19 +62,16 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
     let size = (list.scale.factor, list.extent, tier.spread());
     // Packets from `unanswered` to `from` are to be tested against all spheres, in one run.
     let (mut from, mut unanswered) = (0, 0);
-    let (mut gap, mut passed_over) = (0, 0);
+    let mut patience = Patience::NEW;
     while from < count {
         let large = rays.get(from..count.min(from + LARGE)).unwrap_or_default();
         let survey = Survey::new::<L>(token, view, large, size);
-        let runs_together = survey.packets > 0;
-        let end = from + if runs_together { survey.packets } else { 1 };
-        if !runs_together {
-            passed_over += 1;
-            if passed_over <= gap || !view.is_shared_by::<L>(token, &rays[from]) {
-                from = end;
-                continue;
-            }
-            passed_over = 0;
+        let end = from + survey.packets.max(1);
+        // A packet that does not run with the next pays for no block of spheres outside.
+        if survey.packets == 0 && (list.outside > 0 || !view.is_shared_by::<L>(token, &rays[from]))
+        {
+            from = end;
+            continue;
         }
         // Spheres that no bound sees are tested first: packets begin with these hits.
         if list.outside > 0
@@ -96,16 +94,13 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                     shorter_list = listed.inside::<L>(token, &survey, shorter).unwrap_or(listed);
                 }
             }
-            let mut source = ListSource { list, view, listed: &shorter_list, work: 0 };
+            let mut source = ListSource { list, view, listed: &shorter_list, patience, work: 0 };
             while from < to {
                 let next = to.min(from + GROUP);
                 if let (Some(group), Some(of_group)) =
                     (rays.get(from..next), answers.get_mut(from..next))
                 {
                     let is_answered = source.trace::<L, Q>(tier, token, group, of_group);
-                    if !runs_together {
-                        gap = if is_answered { 0 } else { LONGEST_GAP.min(2 * gap + 1) };
-                    }
                     if is_answered {
                         let run = (rays, unanswered..from);
                         test_all::<L, Q>(tier, token, list, learnt, run, answers);
@@ -114,6 +109,7 @@ pub(crate) fn traverse<L: Lanes, Q: Query>(
                 }
                 from = next;
             }
+            patience = source.patience;
             learnt.add_work(source.work);
         }
     }
@@ -143,6 +139,8 @@ struct ListSource<'a> {
     list: &'a DepthList<'a>,
     view: &'a View,
     listed: &'a Listed<'a>,
+    /// Which packets that fit no frustum are tried.
+    patience: Patience,
     /// What its groups have done.
     work: u64,
 }
@@ -178,7 +176,7 @@ impl ListSource<'_> {
         let inactive = RayPacket::inactive();
         let mut states = [self.state_of::<L>(token, &inactive); GROUP];
         let (factor, extent, squares) = (self.list.scale.factor, self.list.extent, tier.squares());
-        let (mut live, mut usual) = (false, true);
+        let (mut live, mut usual, mut is_tried) = (false, true, false);
         for place in 0..rays.len().min(GROUP) {
             states[place] = self.state_of(token, &rays[place]);
             let state = &states[place];
@@ -201,24 +199,29 @@ impl ListSource<'_> {
         }
         if live {
             count!(GroupFit);
-            let (mut sides, mut blocks) = (Sides::ALL, self.nearest_blocks());
-            let mut is_fit = false;
+            let (mut sides, mut blocks, mut is_fit) = (Sides::ALL, usize::MAX, false);
+            let mut covered = true;
+            for state in states.iter() {
+                covered &= state.covered;
+            }
             if let Some(fit) = Fit::of(states, self.list.extent, tier.spread()) {
                 is_fit = true;
-                if let Some(frustum) = fit.enclose(states, NARROW) {
-                    (sides, blocks) = (frustum.sides, usize::MAX);
+                match fit.enclose(states, NARROW) {
+                    Some(frustum) => sides = frustum.sides,
+                    None => blocks = self.nearest_blocks(tier),
                 }
+            } else {
+                blocks = self.nearest_blocks(tier);
             }
-            let mut covered = true;
-            for state in states.iter_mut() {
-                covered &= state.covered;
-                if !is_fit {
+            if !covered || blocks == 0 {
+                return false;
+            }
+            if !is_fit {
+                for state in states.iter_mut() {
                     state.sides = Sides::ALL;
                 }
             }
-            if !covered {
-                return false;
-            }
+            is_tried = blocks != usize::MAX;
             let absolute_error = greatest_of!(states, s => s.rays.absolute_error);
             let outline = Outline::in_list(tier.spread(), absolute_error);
             let slack = spread_of(tier.spread(), self.list.extent, absolute_error);
@@ -242,6 +245,7 @@ impl ListSource<'_> {
             {
                 if number == blocks {
                     self.work += u64::from(effort.work);
+                    self.patience.take((false, true), GAPS);
                     return false;
                 }
                 let block = (number as u32, &spheres, depth);
@@ -271,13 +275,22 @@ impl ListSource<'_> {
                 *answer = state.finish::<Q>(tier, self);
             }
         }
+        if is_tried {
+            self.patience.take((true, false), GAPS);
+        }
         true
     }
 
-    /// How many blocks of the list rays look into that fit no frustum.
+    /// How many blocks packets look into that fit no frustum; 0 if the next such is better tested against all spheres. So it is in a short
+    /// list, and by tiers with a spread, whose false hits must not depend on the packets before.
     #[inline(always)]
-    fn nearest_blocks(&self) -> usize {
-        (self.list.listed.count / WIDTH / NEAREST).max(LEAST_BLOCKS)
+    fn nearest_blocks(&mut self, tier: impl Accuracy) -> usize {
+        let blocks = self.list.listed.count / WIDTH;
+        if tier.spread() == 0.0 && blocks > LEAST_BLOCKS && self.patience.tries() {
+            (blocks / NEAREST).max(LEAST_BLOCKS)
+        } else {
+            0
+        }
     }
 
     /// Returns how deep the rays of a packet still go.

@@ -56,12 +56,12 @@ pub struct Alone<'a> {
 
 impl Ways<'_> {
     /// Returns memory for streams of so many rays that go by themselves; rays that are said to be incoherent get only lent memory, and
-    /// rays on trial none.
+    /// rays whose work is counted none.
     #[inline(always)]
     fn memory<Q: Query>(&mut self, bvh: &Bvh<'_>, rays: usize) -> Option<StreamMemory<'_>> {
         // (What a stream does is not counted.)
-        #[cfg(feature = "alloc")]
-        if self.learnt.efforts.is_some() {
+        #[cfg(feature = "std")]
+        if self.learnt.work.is_some() {
             return None;
         }
         #[cfg(feature = "alloc")]

@@ -25,8 +25,9 @@ use glam::Vec3;
 
 /// The most spheres that are sorted: they take 2.4 MB.
 const MOST_SPHERES: usize = 100_000;
-/// The fewest rays; and so many that those after them are looked at anew, since they may start in another point.
+/// The fewest rays.
 pub(super) const FEWEST: usize = 1024;
+/// After so many rays of one point those that follow are looked at anew, since they may start in another.
 pub(super) const MANY: usize = 8192;
 /// What it takes to sort a sphere, in steps of work.
 const SORTING: f32 = 30.0;
@@ -36,11 +37,15 @@ const PARTS: [f32; 2] = [200.0, 10.0];
 const PASSED_A_STEP: f32 = 1.0;
 /// What any ray takes besides: it is read, and its answer written.
 const BESIDES: f32 = 4.0;
-/// How many packets are tried in the list. They pay if they do at most nine tenths of what others did in the tree.
+/// How many packets are tried in the list.
 const TRIED: usize = 8;
+/// Packets pay if they do at most nine tenths of what others did in the tree.
 const PAYS: f32 = 0.9;
-/// Rays that do more than half of that may do more than other rays beside them do in the tree: a few of these are counted, too.
+/// Rays that do more than half of what others did in the tree may do more than rays beside them would do there. So a few of these are
+/// counted. Once in so many windows they are wherever the list does an eighth.
 const IN_DOUBT: f32 = 0.5;
+const LOOKED_INTO: f32 = 0.125;
+const WINDOWS: usize = 32;
 /// How many rays are looked at; and how many hits, and spheres.
 const LOOKED_AT: usize = 32;
 const REACHES_LOOKED_AT: usize = 16;
@@ -70,7 +75,8 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
     let after = |from, packets| count.min(from + packets * RayPacket::COUNT);
     // If the list does not pay, the others may come in another order than these.
     let (mut to, learnt) = (from, trace.learnt);
-    let sorting = SORTING * spheres.len() as f32 / left as f32;
+    // After so many rays there is another look, and perhaps another trial.
+    let sorting = SORTING * spheres.len() as f32 / left.min(MOST) as f32;
     let in_all = BESIDES + in_tree;
     if in_all < PARTS[0] * sorting
         && (in_all < PARTS[1] * sorting
@@ -87,13 +93,14 @@ pub(super) fn answer<S: Traverse + ?Sized, Q: LevelQuery>(
         return from;
     };
 
-    let mut at_once = TRIED;
+    let (mut at_once, mut windows) = (TRIED, 0);
     while to < count {
         let part = (rays, to, after(to, at_once));
         let (both, all) = ((structure, &list), (&mut *answered, &mut *answers));
         let in_list = by_list::<S, Q>(both, tier, trace, (part, in_tree), packets, all);
-        (to, at_once) = (part.2, PACKETS);
-        if in_list > IN_DOUBT * in_tree && to < count {
+        (to, at_once, windows) = (part.2, PACKETS, windows + 1);
+        let doubt = if windows % WINDOWS == 0 { LOOKED_INTO } else { IN_DOUBT };
+        if in_list > doubt * in_tree && to < count {
             let part = (rays, to, after(to, TRIED));
             let all = (&mut *answered, &mut *answers);
             in_tree = by_tree::<S, Q>(structure, tier, trace, part, packets, all);
@@ -131,10 +138,10 @@ fn by_list<S: Traverse + ?Sized, Q: LevelQuery>(
     packets: &mut [RayPacket],
     (answered, answers): (&mut [Q::Packet<[f32; 16]>], &mut Q::Many<'_>),
 ) -> f32 {
-    (trace.learnt.work, trace.learnt.unanswered) = (0, Some(0));
+    (trace.learnt.work, trace.learnt.unanswered) = (Some(0), Some(0));
     list.many_in_packets::<Q>(tier, trace, &rays.part(from, to), packets, answered);
     let mut unanswered = trace.learnt.unanswered.take().unwrap_or_default();
-    let of_list = trace.learnt.work as f32;
+    let of_list = trace.learnt.work.take().unwrap_or_default() as f32;
     let of_tree = RayPacket::COUNT as f32 * unanswered.count_ones() as f32 * in_tree;
     // Those that follow each other by one call.
     while unanswered != 0 {

@@ -27,7 +27,7 @@ pub(super) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     let is_long = count * RayPacket::COUNT >= FEWEST_IN_GROUPS;
     let (mut from, mut packets) = (0, if is_long { FIRST } else { count });
     #[cfg(feature = "std")]
-    let (mut next_depth_look, fewest) = (0, by_depth::FEWEST / RayPacket::COUNT);
+    let (mut next_depth_look, fewest) = (0, by_depth::MANY / RayPacket::COUNT);
     while from < count {
         #[cfg(feature = "std")]
         let is_counted =
@@ -45,7 +45,7 @@ pub(super) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
         #[cfg(feature = "std")]
         if is_counted {
             from = nearest_first::<S, Q>(structure, tier, trace, (rays, to), answers);
-            if from >= to + by_depth::MANY / RayPacket::COUNT {
+            if from >= to + fewest {
                 next_depth_look = from;
                 continue;
             }

@@ -91,8 +91,8 @@ impl Traverse for Bvh<'_> {
         } else {
             let (mut alone, source) = (0, PacketSource::Packets(rays));
             let level = trace.level;
-            let ways =
-                Ways { alone: of_few::<Q>(self, level, rays.len(), &mut alone), ..ways(trace) };
+            let few = of_few::<Q>(self, trace, rays.len(), &mut alone);
+            let ways = Ways { alone: few, ..ways(trace) };
             Q::tree(level, tier.tier(), self, ways, source, answers);
             one_by_one::<Q>(self, tier, trace, (&[], rays, alone), answers);
         }
@@ -111,7 +111,8 @@ impl Traverse for Bvh<'_> {
     ) {
         let (level, mut alone) = (trace.level, 0);
         let count = rays.count().div_ceil(RayPacket::COUNT);
-        let ways = Ways { alone: of_few::<Q>(self, level, count, &mut alone), ..ways(trace) };
+        let few = of_few::<Q>(self, trace, count, &mut alone);
+        let ways = Ways { alone: few, ..ways(trace) };
         let source = PacketSource::Rays(rays, &mut *packets);
         Q::tree(level, tier.tier(), self, ways, source, answers);
         let slice = if let ManyRays::Slice(rays) = *rays { rays } else { &[] };
@@ -130,7 +131,8 @@ impl Traverse for Bvh<'_> {
     #[cfg(feature = "std")]
     fn may_gain_by_depth(&self, trace: &Trace<'_>) -> bool {
         let is_asked = trace.stream.is_none() && trace.coherence != Coherence::Incoherent;
-        is_asked && !cfg!(unoptimised) && !small_tree::is_listed(self)
+        // Rays meet the spheres that no bound sees by each way.
+        is_asked && !cfg!(unoptimised) && !small_tree::is_listed(self) && self.outside.is_empty()
     }
 
     #[cfg(feature = "alloc")]
@@ -217,13 +219,17 @@ fn ways<'t>(trace: &'t mut Trace<'_>) -> Ways<'t> {
 #[cfg(feature = "std")]
 fn of_few<'a, Q: Query>(
     bvh: &Bvh<'_>,
-    level: Level,
+    trace: &Trace<'_>,
     packets: usize,
     alone: &'a mut u64,
 ) -> Option<Alone<'a>> {
+    // What they do by themselves is not counted.
+    if trace.learnt.work.is_some() {
+        return None;
+    }
     let most = if small_tree::leaves(bvh).is_some() {
         FEW_IN_SMALL_TREE
-    } else if level.name() != LevelName::Baseline {
+    } else if trace.level.name() != LevelName::Baseline {
         8
     } else if Q::ANY && bvh.is_near() {
         64

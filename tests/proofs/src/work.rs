@@ -63,6 +63,8 @@ kinds! {
     PacketRoots 27.0,
     /// A filter of four spheres of a list against the rays of a packet.
     ListGroup 6.0,
+    /// A sphere is sorted by its depth.
+    SphereSorted 30.0,
     /// The tier, a ray and a sphere a lane.
     TierLanes 250.0,
     /// A ray and a sphere by exact sums, where double precision cannot decide.
