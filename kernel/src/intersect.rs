@@ -65,7 +65,7 @@ use crate::trace::Trace;
 ///
 /// These are figures of optimised builds. At `opt-level = 0` a tree takes up to 0.4 MiB, by `Fast` and `Geometric` 0.8, since there the
 /// rays of slices, packets and tiles go one by one. Lanes of your own take 2.3 MiB there, a list 1.6, and a depth list 3: Rust's threads
-/// have less.
+/// have 2.
 ///
 /// Without `std`, slices take some 8 KiB in a list. On a Cortex-M4F, one ray a call takes 0.6 to 2.9 KiB in a list or a
 /// [`Bvh4`](crate::Bvh4), by tier, and some 8 in a [`Bvh`](crate::Bvh); `docs/targets.md` says how much to provide.
@@ -170,11 +170,12 @@ pub trait Intersect: Lend {
     /// Rays may come in any order: a tree finds out which of them are faster together. It traces a call of up to eight rays one by
     /// one, and also a longer call of few rays that gain nothing together. If many rays come shuffled, it sorts those of a camera or
     /// of a beam, and in a large tree other rays, too. If many rays start in one point, and do much in the tree, as inside nested spheres,
-    /// it sorts the spheres by their distance from there, and traces the rays as a [`DepthList`](crate::DepthList) does.
+    /// it sorts the spheres (100,000 at most) by their distance from there, and traces the rays as a [`DepthList`](crate::DepthList) does:
+    /// by `Exact` and `Stable`.
     ///
     /// With feature `alloc`, a call of more than 1,008 rays in a tree of more than four leaves may allocate up to 430 bytes a ray, at
     /// most 4.5 MB. It does so to sort rays that have nothing in common with those next to them, or to trace them as a stream. With
-    /// `std`, a call of more than 1,280 rays may allocate 24 bytes a sphere to sort these, at most 2.4 MB. If an allocation fails, the
+    /// `std`, a call from 1,280 rays on may allocate 24 bytes a sphere to sort spheres, at most 2.4 MB. If an allocation fails, the
     /// call goes on without the memory.
     ///
     /// ```

@@ -126,8 +126,8 @@ impl<'m> Trace<'m> {
         Self { scratch, ..self }
     }
 
-    /// Lends memory for streams. It replaces the memory that a tree allocates by itself, and is used for rays that are said to be
-    /// incoherent, too. Rays that have nothing in common are traced as a stream as long as enough of them meet at the same boxes. With
+    /// Lends memory for streams, also of rays that are said to be incoherent. A tree then allocates nothing, and sorts neither rays nor
+    /// spheres. Rays that have nothing in common are traced as a stream as long as enough of them meet at the same boxes. With
     /// too little memory ([`queues_needed`](StreamMemory::queues_needed)) all go ray by ray.
     ///
     /// ```

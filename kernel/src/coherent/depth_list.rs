@@ -36,10 +36,10 @@ use crate::scale::scene::SceneScale;
 ///
 /// # Cost
 ///
-/// Time grows with the number of spheres that lie one behind the other. Besides, each thousand packets take a sixteenth of an
-/// operation a sphere. Packets that follow each other should lie beside each other in the picture.
+/// Time grows with the number of spheres that lie one behind the other. Besides, each thousand packets, by slices each 64, look through
+/// all spheres. Packets that follow each other should lie beside each other in the picture.
 /// [`Trace::scratch`](crate::Trace::scratch) is memory for the short lists: with less than
-/// [`DepthList::scratch`] the answers are the same, but take longer. Stack: some 12 KiB.
+/// [`DepthList::scratch`] the answers are the same, but take longer. Stack: as [`Intersect`](crate::Intersect) says.
 ///
 /// ```
 /// use spherule_kernel::{DepthList, Exact, Intersect, Ray, Spheres, Vec3, Viewpoint};
@@ -67,7 +67,7 @@ pub struct DepthList<'a> {
 }
 
 impl<'a> DepthList<'a> {
-    /// Returns how many `f32` any list of `count` spheres needs: 24 bytes a sphere, plus at most 768.
+    /// Returns how many `f32` any list of `count` spheres needs: 6 a sphere, plus at most 192.
     ///
     /// Returns `usize::MAX`, which no memory has, if that number overflows.
     ///
@@ -79,7 +79,7 @@ impl<'a> DepthList<'a> {
         column_length(count).saturating_mul(COLUMNS)
     }
 
-    /// Returns how many `f32` of scratch a traversal uses at most: 48 bytes a sphere, plus 1536.
+    /// Returns how many `f32` of scratch a traversal uses at most: 12 a sphere, plus 384.
     ///
     /// ```
     /// assert_eq!(spherule_kernel::DepthList::scratch(100), 1536);
@@ -94,7 +94,7 @@ impl<'a> DepthList<'a> {
     /// Spheres that are not valid are left out. If the viewpoint is NaN, infinite or a zero direction, or beyond 2^56 times the size
     /// of most spheres, the list can be used, but saves nothing.
     ///
-    /// Cost: a radix sort, 20 to 50 ns a sphere. Stack: 2 KiB. No other memory.
+    /// Cost: a radix sort, 30 to 120 ns a sphere. Stack: 2 KiB. No other memory.
     ///
     /// # Errors
     /// [`TooSmall`] if `memory` is shorter than [`DepthList::needed`] says; longer memory is no error.
