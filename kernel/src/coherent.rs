@@ -15,6 +15,7 @@ mod fit;
 pub(crate) mod frustum;
 mod giving_up;
 pub(crate) mod learnt;
+mod list_group;
 pub(crate) mod list_source;
 mod listed;
 mod packet_group;

@@ -18,6 +18,8 @@ use crate::geometry::many_answers::ManyAnswers;
 use crate::geometry::ray_packet::RayPacket;
 use crate::structures::{LevelQuery, Traverse};
 use crate::trace::Trace;
+#[cfg(feature = "std")]
+use by_depth::Looks;
 use window::{PACKETS, answer_part};
 
 /// How many packets go first, if as many as are traced at a time are left after them: they tell whether groups pay, or a stream. (With 64,
@@ -113,17 +115,14 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
     #[cfg(feature = "alloc")]
     let mut next_look = 0;
     #[cfg(feature = "std")]
-    let mut next_depth_look = 0;
+    let (mut looks, fewest) = (Looks::NONE, FIRST * RayPacket::COUNT + by_depth::FEWEST);
     // (No `chunks`: they divide by their length, and may panic where the compiler does not know it.)
     while from < count {
         #[cfg(feature = "std")]
-        let is_counted = from >= next_depth_look
-            && count - from >= FIRST * RayPacket::COUNT + by_depth::FEWEST
-            && structure.may_gain_by_depth(trace);
+        let is_counted = looks.begin(structure, trace, [from, count - from, fewest]);
         #[cfg(feature = "std")]
         if is_counted {
             packets_at_once = FIRST.min(AT_ONCE);
-            trace.learnt.count_work();
         }
         let to = (from + packets_at_once * RayPacket::COUNT).min(count);
         #[cfg(feature = "std")]
@@ -142,11 +141,9 @@ fn windows<S: Traverse + ?Sized, Q: LevelQuery, const AT_ONCE: usize>(
             let (rest, all) = ((rays, from, count), (&mut answered[..], &mut answers));
             let before = from;
             from = by_depth::answer::<S, Q>(structure, tier, trace, rest, work, &mut packets, all);
-            if from >= before + by_depth::MANY {
-                next_depth_look = from;
+            if looks.end([before, from]) {
                 continue;
             }
-            next_depth_look = from + MOST;
         }
         #[cfg(feature = "alloc")]
         {

@@ -10,7 +10,7 @@
 //! the rays of each. The spheres inside the frustum of the largest run are copied into a short list,
 //! still in the order of their depth, from which the smaller runs copy theirs (`listed.rs`).
 //! The groups go through the last list from the front, as they go through the leaves of a tree, and
-//! stop where the next sphere begins deeper than all that their rays have hit (`list_source.rs`). Packets that fit no frustum do so, too.
+//! stop where the next sphere begins deeper than all that their rays have hit (`list_group.rs`). Packets that fit no frustum do so, too.
 
 use super::depth_sort;
 use super::listed::{COLUMNS, Listed, column_length};

@@ -95,9 +95,9 @@ impl Learnt {
         let _ = work;
     }
 
-    /// Returns whether packets that go too deep in a depth list are left to the caller; if so, notes those.
+    /// Returns whether packets that a depth list does not answer are left to the caller; if so, notes these.
     #[inline(always)]
-    pub(super) fn leaves(&mut self, packets: Range<usize>) -> bool {
+    pub(super) fn are_left(&mut self, packets: Range<usize>) -> bool {
         #[cfg(feature = "std")]
         if let Some(unanswered) = &mut self.unanswered {
             for packet in packets {

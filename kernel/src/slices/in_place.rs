@@ -1,7 +1,7 @@
 //! A caller's packets: they are traced where they lie, except those whose rays gain by another order.
 
 #[cfg(feature = "std")]
-use super::by_depth;
+use super::by_depth::{self, Looks, MANY};
 use super::in_order;
 use super::window::PACKETS;
 use crate::Accuracy;
@@ -27,14 +27,15 @@ pub(super) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
     let is_long = count * RayPacket::COUNT >= FEWEST_IN_GROUPS;
     let (mut from, mut packets) = (0, if is_long { FIRST } else { count });
     #[cfg(feature = "std")]
-    let (mut next_depth_look, fewest) = (0, by_depth::MANY / RayPacket::COUNT);
+    let mut looks = Looks::NONE;
     while from < count {
         #[cfg(feature = "std")]
-        let is_counted =
-            from >= next_depth_look && count - from >= fewest && structure.may_gain_by_depth(trace);
+        let is_counted = {
+            let [from, left] = [from, count - from].map(|packets| packets * RayPacket::COUNT);
+            looks.begin(structure, trace, [from, left, MANY])
+        };
         #[cfg(feature = "std")]
         if is_counted {
-            trace.learnt.count_work();
             packets = FIRST;
         }
         let to = count.min(from + packets);
@@ -45,11 +46,9 @@ pub(super) fn traverse<S: Traverse + ?Sized, Q: LevelQuery>(
         #[cfg(feature = "std")]
         if is_counted {
             from = nearest_first::<S, Q>(structure, tier, trace, (rays, to), answers);
-            if from >= to + fewest {
-                next_depth_look = from;
+            if looks.end([to, from].map(|packets| packets * RayPacket::COUNT)) {
                 continue;
             }
-            next_depth_look = from + AT_ONCE;
         }
         if let (Some(rest), Some(left)) = (rays.get(from..count), answers.get_mut(from..count))
             && let Some(gain) = structure.gain_by_order::<Q>(trace)

@@ -2,12 +2,12 @@
 
 extern crate std;
 
-use super::{FEWEST, MANY};
+use super::{FEWEST, MANY, is_worth_sorting};
 use crate::coherent::ray_order::tests::{point, rays};
 use crate::proofs::climb::Random;
 use crate::proofs::work::{Kind, Work};
 use crate::{
-    Coherence, Exact, Fast, Hit, HitPacket, Intersect, Level, LevelName, Ray, RayPacket,
+    Coherence, DepthList, Exact, Fast, Hit, HitPacket, Intersect, Level, LevelName, Ray, RayPacket,
     SphereList, SphereTree, Trace, Vec3,
 };
 use std::vec;
@@ -120,6 +120,80 @@ fn what_the_first_rays_do_is_not_believed_for_long() {
     let rays: Vec<_> = (0..200_000).map(ray).collect();
     let [all, later] = [&rays[..], &rays[600..]].map(|rays| checked(&tree, rays).units());
     assert!(all < 2.0 * later, "{all} units, {later} without the first rays");
+}
+
+/// What calls have seen (AVX2), and whether sorting paid there.
+#[test]
+fn trials_tell_where_sorting_pays() {
+    for (scene, spheres, left, in_tree, passed, pays) in [
+        ("64 apart, a scanner", 64, 65_280, 3.50, 52.2, true),
+        ("200 apart, scan lines", 200, 65_280, 3.22, 135.0, false),
+        ("2,000 apart, shuffled", 2000, 65_280, 88.6, 669.0, false),
+        ("2,000 apart, all around", 2000, 65_280, 55.3, 658.0, false),
+        ("10,000 that overlap, scan lines", 10_000, 65_280, 157.0, 0.0, true),
+        ("10,000 that overlap, shuffled, any hits", 10_000, 65_280, 65.7, f32::INFINITY, false),
+        ("10,000 that overlap, shuffled, few rays", 10_000, 4744, 322.0, 0.0, false),
+        ("30 nests, rings of rays from their edge", 9000, 65_280, 132.0, 1209.0, false),
+        ("4,000 nested, all around, few rays", 4000, 1044, 1474.0, 2.0, true),
+    ] {
+        assert_eq!(is_worth_sorting(spheres, left, in_tree, || passed), pays, "{scene}");
+    }
+}
+
+/// How many spheres a call sorts.
+fn sorted(tree: &SphereTree, rays: &[Ray]) -> u64 {
+    let mut hits = vec![None; rays.len()];
+    Work::of(|| tree.closest_hits(Exact, rays, &mut hits)).count(Kind::SphereSorted)
+}
+
+/// As `Intersect::closest_hits` says.
+#[test]
+fn spheres_are_sorted_from_1280_rays_on() {
+    let (tree, rays) = (nested(900), all_around(MANY));
+    assert_eq!([1279, 1280].map(|count| sorted(&tree, &rays[..count])), [0, 900]);
+    let packets: Vec<_> = rays.chunks(RayPacket::COUNT).map(RayPacket::new).collect();
+    let of_packets = |count: usize| {
+        let (trace, mut hits) = (&mut Trace::new(), vec![HitPacket::none(); count]);
+        let work =
+            Work::of(|| tree.closest_hit_packets(Exact, trace, &packets[..count], &mut hits));
+        work.count(Kind::SphereSorted)
+    };
+    assert_eq!([511, 512].map(of_packets), [0, 900]);
+}
+
+/// The memory is bounded.
+#[test]
+fn up_to_a_hundred_thousand_spheres_are_sorted() {
+    let rays = all_around(1300);
+    let of = |count| sorted(&nested(count), &rays);
+    assert_eq!([100_000, 100_001].map(of), [100_000, 0]);
+    let bytes = 4 * DepthList::needed(100_000);
+    assert!(bytes < 2_410_000, "{bytes}");
+}
+
+/// No packet fits a frustum, and the list is too short to be gone through without: it gains nothing.
+#[test]
+fn packets_that_a_list_leaves_to_the_tree_return_to_it() {
+    let rays = all_around(8 * MANY);
+    let work = checked(&apart(64), &rays);
+    let [_, packets] = boxes_and_packets(work, rays.len());
+    assert_eq!(work.count(Kind::SphereSorted), 64);
+    assert!(packets < 0.02, "{packets} packets a ray");
+}
+
+/// Shuffled, the rays of a camera do much in the tree; sorted, they do less than in a list.
+#[test]
+fn rays_that_gain_more_by_being_sorted_themselves_are() {
+    let tree = apart(200);
+    let eye = Vec3::new(-0.8, 0.05, 0.09);
+    let rays = rays(40_000, |random| {
+        let pixel = point(random) / 2.0;
+        Ray::new(eye, Vec3::new(1.0, pixel.y, pixel.z))
+    });
+    let work = checked(&tree, &rays);
+    assert_eq!(work.count(Kind::SphereSorted), 200);
+    let nodes = work.count(Kind::GroupNode);
+    assert!(nodes > rays.len() as u64 / 100, "{nodes} nodes by groups");
 }
 
 /// Too few rays, for the call or for the spheres, and tiers whose false hits differ.
